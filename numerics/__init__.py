@@ -1,0 +1,1 @@
+"""What is computed or measured: spectra, variances, point sets, campaigns, verdicts."""

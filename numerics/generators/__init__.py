@@ -1,0 +1,1 @@
+"""Generators of the catalogue samplers, one file each."""

@@ -1,0 +1,219 @@
+"""Kernels: exact expected power spectra as short sums of products over coordinates.
+
+For every coordinate-stratified sampler N·P_S(m) is a sum of terms, each a coefficient times a
+product over the coordinates of one-dimensional factors. A factor is a linear combination of
+products of
+
+    1,   sinc²(m_i/n),   [m_i = 0],   the comb [n divides m_i],       sinc(x) = sin(πx)/(πx);
+
+the count n belongs to the factor and not to the coordinate (multi-jitter has n and N on one axis).
+The axes of a group share their factor, so the product over a whole group of symbolic size is
+written once. Kernels are closed under + and ×: a kernel is built as the formula is written.
+
+    n = alphabet.count("n")
+    K = alphabet.constant() - alphabet.over(0, alphabet.sinc2(n))    # jitter
+
+Coefficients are elements of the field Q(π², counts), so that cancellations are exact.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from sympy import QQ, Expr
+from sympy.polys.fields import FracElement, FracField, field
+
+
+@lru_cache(maxsize=256)
+def coefficient_field(counts: tuple[str, ...]) -> FracField:
+    """Q(π², counts): ``pi2`` stands for π²."""
+    return field(["pi2", *counts], QQ)[0]  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True)
+class Atom:
+    """[m = 0]^zero · ∏ [comb divides m] · ∏ sinc²(m/n); equals 1 at m = 0.
+
+    The counts are elements of the coefficient field, so that N can be written as m·n where a
+    cancellation needs it.
+    """
+
+    zero: bool = False
+    combs: tuple[FracElement, ...] = ()
+    sincs: tuple[FracElement, ...] = ()
+
+    def __mul__(self, other: "Atom") -> "Atom":
+        combs = tuple(sorted({*self.combs, *other.combs}, key=str))
+        sincs = tuple(sorted(self.sincs + other.sincs, key=str))
+        return Atom(self.zero or other.zero, combs, sincs)
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A function of one coordinate: a linear combination of atoms with exact coefficients."""
+
+    terms: tuple[tuple[FracElement, Atom], ...]
+
+    def __add__(self, other: "Factor") -> "Factor":
+        sums: dict[Atom, FracElement] = {}
+        for coefficient, atom in self.terms + other.terms:
+            sums[atom] = sums[atom] + coefficient if atom in sums else coefficient
+        return Factor(tuple((c, a) for a, c in sums.items() if c != 0))
+
+    def __sub__(self, other: "Factor") -> "Factor":
+        return self + other.scaled(-1)
+
+    def __mul__(self, other: "Factor") -> "Factor":
+        pairs = [(c * k, a * b) for c, a in self.terms for k, b in other.terms]
+        return Factor(tuple(pairs)) + Factor(())
+
+    def scaled(self, coefficient: FracElement | int) -> "Factor":
+        """The factor times a coefficient."""
+        return Factor(tuple((c * coefficient, a) for c, a in self.terms if coefficient != 0))
+
+    def at_zero(self) -> FracElement | int:
+        """Value at m = 0, where every atom is 1."""
+        return sum((c for c, _ in self.terms), start=0)
+
+    def off_zero(self) -> "Factor":
+        """The factor for m ≠ 0: gone are [m = 0] and sinc²(m/n) on its own comb's nonzero teeth."""
+        return Factor(
+            tuple((c, a) for c, a in self.terms if not a.zero and not {*a.combs} & {*a.sincs})
+        )
+
+
+@dataclass(frozen=True)
+class Term:
+    """coefficient · ∏_groups ∏_{axes of the group} factor; groups not named have factor 1."""
+
+    coefficient: FracElement
+    factors: tuple[tuple[int, Factor], ...] = ()
+
+    def __mul__(self, other: "Term") -> "Term":
+        factors = dict(self.factors)
+        for group, factor in other.factors:
+            factors[group] = factors[group] * factor if group in factors else factor
+        return Term(self.coefficient * other.coefficient, tuple(sorted(factors.items())))
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """N·P_S as a tree of sums and products of terms.
+
+    ``restrict`` walks the tree for one support, so that a product over many blocks is never
+    multiplied out where its factors vanish.
+    """
+
+    kind: str  # "term", "sum" or "product"
+    term: Term | None = None
+    parts: tuple["Kernel", ...] = ()
+
+    def __add__(self, other: "Kernel") -> "Kernel":
+        return Kernel("sum", parts=(self, other))
+
+    def __sub__(self, other: "Kernel") -> "Kernel":
+        return self + other.scaled(-1)
+
+    def __mul__(self, other: "Kernel") -> "Kernel":
+        return Kernel("product", parts=(self, other))
+
+    def scaled(self, coefficient: FracElement | int) -> "Kernel":
+        """The kernel times a coefficient."""
+        if self.term is not None:
+            return Kernel("term", Term(self.term.coefficient * coefficient, self.term.factors))
+        if self.kind == "sum":
+            return Kernel("sum", parts=tuple(p.scaled(coefficient) for p in self.parts))
+        return Kernel("product", parts=(self.parts[0].scaled(coefficient), *self.parts[1:]))
+
+    def restrict(self, counts: tuple[Expr | int, ...]) -> tuple[Term, ...]:
+        """Terms of the kernel on supports with ``counts[g]`` axes in group g.
+
+        Axes outside the support have their factor's value at 0, which must be 1 wherever the
+        group is not wholly inside the support; axes inside have lost their [m = 0] atoms.
+        """
+        if self.term is not None:
+            return _restricted(self.term, counts)
+        if self.kind == "sum":
+            return _collected([t for p in self.parts for t in p.restrict(counts)])
+        terms: tuple[Term, ...] = self.parts[0].restrict(counts)
+        for part in self.parts[1:]:
+            terms = _collected([a * b for a in terms for b in part.restrict(counts)])
+        return terms
+
+
+def _restricted(term: Term, counts: tuple[Expr | int, ...]) -> tuple[Term, ...]:
+    kept: list[tuple[int, Factor]] = []
+    for group, factor in term.factors:
+        if counts[group] == 0:
+            continue
+        inside = factor.off_zero()
+        if not inside.terms:
+            return ()
+        kept.append((group, inside))
+    return (Term(term.coefficient, tuple(kept)),)
+
+
+def _collected(terms: list[Term]) -> tuple[Term, ...]:
+    """Like terms added, zero terms dropped."""
+    sums: dict[tuple[tuple[int, Factor], ...], FracElement] = {}
+    for t in terms:
+        sums[t.factors] = sums[t.factors] + t.coefficient if t.factors in sums else t.coefficient
+    return tuple(Term(c, f) for f, c in sums.items() if c != 0)
+
+
+@dataclass(frozen=True)
+class Alphabet:
+    """The symbols of one kernel: its counts, and constructors for atoms over them.
+
+    Parameters
+    ----------
+    counts : tuple of str
+        Names of the counts, for example ``("N", "n")``.
+    """
+
+    counts: tuple[str, ...]
+
+    def count(self, name: str) -> FracElement:
+        """A count as a coefficient."""
+        return coefficient_field(self.counts).gens[1 + self.counts.index(name)]
+
+    def number(self, value: int) -> FracElement:
+        """A whole number as a coefficient."""
+        return coefficient_field(self.counts)(value)
+
+    def constant(self, value: FracElement | int = 1) -> Kernel:
+        """A kernel that does not depend on m."""
+        return Kernel("term", Term(self.number(1) * value))
+
+    def zero(self) -> Factor:
+        """[m = 0]."""
+        return Factor(((self.number(1), Atom(zero=True)),))
+
+    def one(self) -> Factor:
+        """The factor 1."""
+        return Factor(((self.number(1), Atom()),))
+
+    def comb(self, count: FracElement) -> Factor:
+        """[count divides m]."""
+        return Factor(((self.number(1), Atom(combs=(count,))),))
+
+    def sinc2(self, count: FracElement) -> Factor:
+        """sinc²(m/count)."""
+        return Factor(((self.number(1), Atom(sincs=(count,))),))
+
+    def over(self, group: int, factor: Factor) -> Kernel:
+        """The product of a factor, equal to 1 at m = 0, over all axes of a group.
+
+        Raises
+        ------
+        ValueError
+            If the factor is not 1 at m = 0: its value there could not be raised to the power of
+            a symbolic number of axes.
+        """
+        if factor.at_zero() != 1:
+            raise ValueError(f"a factor must be 1 at m = 0: got {factor.at_zero()}")
+        return Kernel("term", Term(self.number(1), ((group, factor),)))
+
+    def single(self, group: int, factor: Factor) -> Kernel:
+        """A factor on a group of one axis; its value at m = 0 goes into the coefficient."""
+        at_zero = self.number(1) * factor.at_zero()
+        return self.over(group, factor.scaled(1 / at_zero)).scaled(at_zero)
