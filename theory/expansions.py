@@ -19,15 +19,12 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import product
 
-import sympy
-from sympy import Expr, Integer, Rational
-from sympy.polys.fields import FracElement, FracField
-
+from .errors import UndecidedSign
 from .kernels import Factor, Kernel, Term
 from .layouts import Growth, Layout
-from .errors import UndecidedSign
 from .regions import Region
 from .signs import Assumptions, nonnegative
+from .symbolic import Expr, FracElement, FracField, Integer, Rational, sympy
 
 FULL = (-1,)
 """The partition (1, 1, ..., 1) with one part for each axis of the support in a group."""
@@ -117,6 +114,8 @@ def expand(kernel: Kernel, layout: Layout, region: Region) -> Series:
         lead = _leading(coefficient, layout.growth, region.assumptions)
         if lead is not None:
             found.append(SeriesTerm(powers, powers.degree(counts), sympy.expand(-lead[0]), lead[1]))
+            if lead[0] == 0 and found[-1].degree == 0:
+                break  # flat from the start: no other term can rise above it
     return Series(counts, tuple(found), tuple(_combs(terms, layout, region)))
 
 
@@ -245,7 +244,10 @@ def _leading_of_polynomial(polynomial, growth: dict[str, Growth], assumptions: A
     laws = [growth[str(s)] for s in polynomial.ring.symbols[1:]]
     found: list[tuple[Expr, Expr]] = []
     for (half_pi, *powers), number in polynomial.terms():
-        exponent, constant = Integer(0), sympy.pi ** (2 * half_pi) * Rational(number.numerator, number.denominator)
+        exponent, constant = (
+            Integer(0),
+            sympy.pi ** (2 * half_pi) * Rational(number.numerator, number.denominator),
+        )
         for law, k in zip(laws, powers, strict=True):
             if k:
                 exponent, constant = exponent + k * law.exponent, constant * law.constant**k
@@ -285,7 +287,9 @@ def _combs(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[
         for count, axes in combs:  # the comb meets one frequency in n on each of its axes
             exponent, _ = leading_power(count, layout.growth, region.assumptions)
             height -= axes * exponent
-            threshold = exponent if nonnegative(exponent - threshold, region.assumptions) else threshold
+            threshold = (
+                exponent if nonnegative(exponent - threshold, region.assumptions) else threshold
+            )
         yield Comb(threshold, sympy.expand(height), lead[1])
 
 
@@ -316,4 +320,3 @@ def _comb_choices(factor: Factor, w: Expr):
         zero = factor.terms[0][0].field(0)
         value = sum((c for c, a in factor.terms if a.combs == (count,)), zero)
         yield ((count, w),), ((value ** int(w), []) if w.is_Integer else (zero + 1, [(value, w)]))
-

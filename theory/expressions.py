@@ -8,10 +8,8 @@ Exponents, block sizes and dimensions come from users as text such as ``3/2``, `
 import ast
 from collections.abc import Mapping
 
-import sympy
-from sympy import Expr, Integer, Rational
-
 from .errors import InputError
+from .symbolic import Expr, Integer, Rational, sympy
 
 _LONGEST = 200  # characters: an exponent is short; longer text is not one
 _LARGEST_POWER = 64

@@ -19,14 +19,13 @@ Coefficients are elements of the field Q(π², counts), so that cancellations ar
 from dataclasses import dataclass
 from functools import lru_cache
 
-from sympy import QQ, Expr
-from sympy.polys.fields import FracElement, FracField, field
+from .symbolic import Expr, FracElement, FracField, sympy
 
 
 @lru_cache(maxsize=256)
 def coefficient_field(counts: tuple[str, ...]) -> FracField:
     """Q(π², counts): ``pi2`` stands for π²."""
-    return field(["pi2", *counts], QQ)[0]  # type: ignore[no-any-return]
+    return sympy.polys.fields.field(["pi2", *counts], sympy.QQ)[0]
 
 
 @dataclass(frozen=True)

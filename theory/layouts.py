@@ -12,10 +12,8 @@ has N cells; a constant count has a = 0.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-import sympy
-from sympy import Expr, Integer
-
 from .signs import Assumptions
+from .symbolic import Expr, Integer, sympy
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,9 @@ class Layout:
     """
 
     groups: tuple[AxisGroup, ...]
-    growth: Mapping[str, Growth] = field(default_factory=lambda: {"N": Growth(Integer(1))}, hash=False)
+    growth: Mapping[str, Growth] = field(
+        default_factory=lambda: {"N": Growth(Integer(1))}, hash=False
+    )
     assumptions: Assumptions = ()
 
     @property
@@ -97,7 +97,9 @@ class Layout:
         return spelled(members[0].first, sum((g.size for g in members), Integer(0)))
 
 
-def grouped(sizes: tuple[Expr, ...], blocks: tuple[int, ...] | None = None) -> tuple[AxisGroup, ...]:
+def grouped(
+    sizes: tuple[Expr, ...], blocks: tuple[int, ...] | None = None
+) -> tuple[AxisGroup, ...]:
     """Groups of the given sizes, one after the other; each in block 0 unless told otherwise."""
     first: Expr = Integer(1)
     found: list[AxisGroup] = []

@@ -13,11 +13,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
-import sympy
-from sympy import Expr, Integer
-
 from .errors import UndecidedSign
 from .signs import Assumptions, Sign, sign_changes, sign_of
+from .symbolic import Expr, Integer, sympy
 
 
 @dataclass(frozen=True)
@@ -36,8 +34,12 @@ class Order:
     log_power: Expr = Integer(0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exponent", sympy.expand(sympy.sympify(self.exponent, strict=True)))
-        log = Integer(0) if self.exponent is sympy.oo else sympy.sympify(self.log_power, strict=True)
+        object.__setattr__(
+            self, "exponent", sympy.expand(sympy.sympify(self.exponent, strict=True))
+        )
+        log = (
+            Integer(0) if self.exponent is sympy.oo else sympy.sympify(self.log_power, strict=True)
+        )
         object.__setattr__(self, "log_power", log)
 
     def __mul__(self, other: "Order") -> "Order":
@@ -46,7 +48,7 @@ class Order:
     def __str__(self) -> str:
         if self.exponent is sympy.oo:
             return "0"
-        power = "1" if self.exponent == 0 else f"N^{_signed(-self.exponent)}"
+        power = "1" if self.exponent == 0 else f"N^{_power_text(self.exponent)}"
         if self.log_power == 0:
             return power
         return f"{power} {_log_text(self.log_power)}"
@@ -60,6 +62,8 @@ class Order:
             return power
         if self.log_power == 1:
             return rf"{power}\log N"
+        if isinstance(self.log_power, sympy.KroneckerDelta):
+            return rf"{power}(\log N)^{{[{_latex_tie(self.log_power)}]}}"
         return rf"{power}(\log N)^{{{sympy.latex(self.log_power)}}}"
 
 
@@ -67,22 +71,41 @@ CONSTANT = Order(Integer(0))
 """The neutral order, N^0."""
 
 
-def _signed(power: Expr) -> str:
-    text = str(power)
-    return text if power.is_Integer or power.is_Symbol else f"({text})"
+def _negated_terms(exponent: Expr) -> list[Expr]:
+    """The terms of −exponent, the plain number first, as the paper writes N^(-1-2/d)."""
+    terms = sorted(sympy.Add.make_args(exponent), key=lambda t: (not t.is_number, str(t)))
+    return [-t for t in terms]
+
+
+def _power_text(exponent: Expr) -> str:
+    terms = _negated_terms(exponent)
+    if len(terms) == 1:
+        return str(terms[0]) if terms[0].is_Integer or terms[0].is_Symbol else f"({terms[0]})"
+    text = " + ".join(str(t) for t in terms)
+    return f"({text.replace('+ -', '- ')})"
+
+
+def _latex_negated(exponent: Expr) -> str:
+    parts = [sympy.latex(t).replace("- ", "-") for t in _negated_terms(exponent)]
+    return "".join(p if i == 0 or p.startswith("-") else f"+{p}" for i, p in enumerate(parts))
+
+
+def _tie_sides(delta: Expr) -> tuple[Expr, Expr]:
+    """The two sides of a Kronecker delta, the symbol first."""
+    first, second = delta.args
+    return (second, first) if second.is_Symbol and not first.is_Symbol else (first, second)
+
+
+def _latex_tie(delta: Expr) -> str:
+    return "=".join(sympy.latex(side) for side in _tie_sides(delta))
 
 
 def _log_text(power: Expr) -> str:
     if isinstance(power, sympy.KroneckerDelta):
-        return f"(log N if {power.args[0]} = {power.args[1]})"
-    return "log N" if power == 1 else f"(log N)^{_signed(power)}"
-
-
-def _latex_negated(exponent: Expr) -> str:
-    """The exponent's terms with opposite sign, the plain number first: -1-\\frac{2}{d}."""
-    terms = sorted(sympy.Add.make_args(exponent), key=lambda t: (not t.is_number, str(t)))
-    parts = [sympy.latex(-t) for t in terms]
-    return "".join(p if i == 0 or p.startswith("-") else f"+{p}" for i, p in enumerate(parts))
+        return "(log N if {} = {})".format(*_tie_sides(power))
+    if power == 1:
+        return "log N"
+    return f"(log N)^{power}" if power.is_Integer or power.is_Symbol else f"(log N)^({power})"
 
 
 def dominates(first: Order, second: Order, assumptions: Assumptions = ()) -> bool | None:

@@ -14,12 +14,11 @@ kept as a step, degree oo at N_k = N^e, whose plateau N^g may grow with N on sma
 
 from dataclasses import dataclass, field
 
-import sympy
-from sympy import Expr, Integer
-
 from .expansions import Comb, Powers, Series
 from .orders import Order
 from .signs import Assumptions, nonnegative, sign_of
+from .symbolic import Expr, Integer, sympy
+
 
 @dataclass(frozen=True)
 class SaturatingMonomial:
@@ -59,6 +58,7 @@ class SaturatingMonomial:
         """Order of the variance against an integrand whose shell energies fall as ρ^-q."""
         return saturated_order(self, q, assumptions)
 
+
 def saturated_order(monomial: SaturatingMonomial, q: Expr, assumptions: Assumptions) -> Order:
     """N^-(1 − g + e·min(b, q)), with a logarithm exactly at the tie b = q, e > 0.
 
@@ -73,12 +73,14 @@ def saturated_order(monomial: SaturatingMonomial, q: Expr, assumptions: Assumpti
         return Order(base + e * (b if q is sympy.oo else q))
     return Order(base + e * least(b, q, assumptions), tie(b, q, assumptions))
 
+
 def least(b: Expr, q: Expr, assumptions: Assumptions) -> Expr:
     """min(b, q), decided where the assumptions decide it."""
     larger = nonnegative(b - q, assumptions)
     if larger is None:
         return b if nonnegative(q - b, assumptions) else sympy.Min(b, q)
     return q if larger else b
+
 
 def tie(b: Expr, q: Expr, assumptions: Assumptions) -> Expr:
     """1 where b = q for all symbols, 0 where never, else a Kronecker delta."""
@@ -93,6 +95,7 @@ def tie(b: Expr, q: Expr, assumptions: Assumptions) -> Expr:
             rest = sympy.expand(free - gap / gap.coeff(free))
             return sympy.KroneckerDelta(rest, free)
     return sympy.KroneckerDelta(b, q)
+
 
 def newton_polygon(series: Series, assumptions: Assumptions) -> tuple[SaturatingMonomial, ...]:
     """The saturating monomials of a region from the low-frequency series of its kernel.
@@ -112,16 +115,24 @@ def newton_polygon(series: Series, assumptions: Assumptions) -> tuple[Saturating
     found = [_monomial(p, lines[p], series) for p in kept]
     steps = [_step(c) for c in series.combs]
     return tuple(found) + tuple(
-        s for i, s in enumerate(steps) if not _is_covered(s, found, assumptions) and s not in steps[:i]
+        s
+        for i, s in enumerate(steps)
+        if not _is_covered(s, found, assumptions) and s not in steps[:i]
     )
+
 
 def _saturation(lines: list[tuple[Expr, Expr]], assumptions: Assumptions) -> Expr:
     """The x at which the first line reaches 0, where N·P saturates."""
-    reached = [Integer(0) if decay == 0 else decay / degree for degree, decay in lines if degree != 0 or decay == 0]
+    reached = [
+        Integer(0) if decay == 0 else decay / degree
+        for degree, decay in lines
+        if degree != 0 or decay == 0
+    ]
     edge = reached[0] if reached else Integer(0)
     for x in reached[1:]:
         edge = least(edge, x, assumptions)
     return edge
+
 
 def _hides(
     other: tuple[Expr, Expr], line: tuple[Expr, Expr], edge: Expr, assumptions: Assumptions
@@ -137,16 +148,21 @@ def _hides(
         return bool(nonnegative(line[0] - other[0], assumptions))
     return at_zero == "+" and bool(nonnegative(sympy.expand(gap), assumptions))
 
+
 def _monomial(
     line: tuple[Expr, Expr], forms: list[tuple[Powers, Expr]], series: Series
 ) -> SaturatingMonomial:
     degree, decay = line
     effective = sympy.expand(decay / degree) if degree != 0 else Integer(0)
     mean = sum((c * p.angular_mean(series.counts) for p, c in forms), Integer(0))
-    return SaturatingMonomial(degree, effective, sympy.nsimplify(mean) if mean.is_Rational else mean, form=tuple(forms))
+    return SaturatingMonomial(
+        degree, effective, sympy.nsimplify(mean) if mean.is_Rational else mean, form=tuple(forms)
+    )
+
 
 def _step(comb: Comb) -> SaturatingMonomial:
     return SaturatingMonomial(sympy.oo, comb.threshold, None, comb.height, comb.constant)
+
 
 def _is_covered(
     step: SaturatingMonomial, monomials: list[SaturatingMonomial], assumptions: Assumptions

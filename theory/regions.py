@@ -19,12 +19,10 @@ lie in different groups and so in different regions.
 from dataclasses import dataclass
 from itertools import product
 
-import sympy
-from sympy import Expr, Integer
-
 from .errors import InputError
 from .layouts import Layout
 from .signs import Assumptions, Range, at_least, nonnegative, symbol
+from .symbolic import Expr, Integer, sympy
 
 _MOST_REGIONS = 20_000
 

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-import sympy
-from sympy import Expr, Integer, Rational, Symbol
+from .symbolic import Expr, Integer, Rational, Symbol, sympy
 
 Sign = Literal["-", "<=0", "0", ">=0", "+"] | None
 """A proved sign: negative, not positive, zero, not negative, positive; None is undecided."""
@@ -38,13 +37,13 @@ Assumptions = tuple[Range, ...]
 
 def symbol(name: str) -> Symbol:
     """A positive integer of the theory: a dimension, a block size, a support size."""
-    return Symbol(name, integer=True, positive=True)
+    return sympy.Symbol(name, integer=True, positive=True)
 
 
 def at_least(size: Expr, lower: Expr | int) -> Range:
     """``size >= lower`` as a range of the one symbol in a size such as d - 3."""
     (free,) = size.free_symbols
-    return Range(free, sympy.expand(lower - (size - free)))  # type: ignore[arg-type]
+    return Range(free, sympy.expand(lower - (size - free)))
 
 
 def nonnegative(expression: Expr, assumptions: Assumptions = ()) -> bool | None:
@@ -82,7 +81,7 @@ def sign_of(expression: Expr, assumptions: Assumptions = ()) -> Sign:
     free = sorted(offset.free_symbols, key=str)
     if sign is not None or len(free) != 1 or not free[0].is_integer:
         return sign
-    return _sign_by_values(offset, free[0])  # type: ignore[arg-type]
+    return _sign_by_values(offset, free[0])
 
 
 def _sign_of_number(number: Expr) -> Sign:
@@ -92,10 +91,25 @@ def _sign_of_number(number: Expr) -> Sign:
 
 
 def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
-    """Replace the first Min by each of its arguments; agreeing signs are the sign."""
-    least = next(iter(expression.atoms(sympy.Min)))
-    signs = {sign_of(expression.xreplace({least: a}), assumptions) for a in least.args}  # type: ignore[arg-type]
+    """Replace the first Min by each of its arguments; agreeing signs are the sign.
+
+    k (min(x, u) − min(x, v)) has the weak sign of k (u − v) whatever x is.
+    """
+    minima = sorted(expression.atoms(sympy.Min), key=str)
+    if len(minima) == 2:
+        x = set(minima[0].args) & set(minima[1].args)
+        dummies = sympy.Dummy(), sympy.Dummy()
+        linear = sympy.expand(expression.xreplace(dict(zip(minima, dummies, strict=True))))
+        k = sympy.cancel(linear.coeff(dummies[0]))
+        if len(x) == 1 and sympy.cancel(linear - k * (dummies[0] - dummies[1])) == 0:
+            u, v = (sympy.Min(*(set(m.args) - x)) for m in minima)
+            return _WEAK[sign_of(k * (u - v), assumptions)]
+    least = minima[0]
+    signs = {sign_of(expression.xreplace({least: a}), assumptions) for a in least.args}
     return signs.pop() if len(signs) == 1 else None
+
+
+_WEAK: dict[Sign, Sign] = {"+": ">=0", ">=0": ">=0", "-": "<=0", "<=0": "<=0", "0": "0", None: None}
 
 
 def _shifted(expression: Expr, assumptions: Assumptions) -> Expr | None:
@@ -104,7 +118,7 @@ def _shifted(expression: Expr, assumptions: Assumptions) -> Expr | None:
     if not expression.free_symbols <= known:
         return None
     for r in reversed(assumptions):
-        t = Symbol(f"t_{r.symbol}", nonnegative=True, integer=r.integer or None)
+        t = sympy.Symbol(f"t_{r.symbol}", nonnegative=True, integer=r.integer or None)
         expression = expression.xreplace({r.symbol: r.lower + t})
     return expression
 
@@ -153,7 +167,9 @@ def _common_sign(signs: set[Sign]) -> Sign:
     return None
 
 
-def sign_changes(expression: Expr, assumptions: Assumptions) -> tuple[Symbol, list[Rational]] | None:
+def sign_changes(
+    expression: Expr, assumptions: Assumptions
+) -> tuple[Symbol, list[Rational]] | None:
     """Where the sign of a rational function of one symbol changes, or None if it has more.
 
     Returns
@@ -169,4 +185,4 @@ def sign_changes(expression: Expr, assumptions: Assumptions) -> tuple[Symbol, li
         return None
     numerator, _ = sympy.fraction(sympy.together(expression))
     roots = sympy.Poly(numerator, free).real_roots()
-    return free, sorted({r for r in roots if r >= lower})  # type: ignore[return-value]
+    return free, sorted({r for r in roots if r >= lower})

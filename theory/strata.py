@@ -5,15 +5,13 @@ N = ∏ n_i = K t^S cells, K = ∏ k_i, S = Σ p_i, and n_i = κ_i N^a_i with a_
 κ_i = k_i / K^a_i. A constant count has p_i = 0.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm, prod
-
-from sympy import Expr, Integer, Rational, integer_nthroot
 
 from .errors import InputError
 from .expressions import parse_expression
 from .layouts import Growth
+from .symbolic import Expr, Integer, Rational, sympy
 
 _RULE = "strata are written as 25x40 (proportions kept as N grows), 4xN or N^1/3xN^2/3"
 
@@ -48,7 +46,7 @@ class Strata:
 
 def nearest_root(n: int, factor: int, power: int) -> int:
     """The t >= 1 for which factor · t^power is nearest to n."""
-    below = max(1, int(integer_nthroot(max(1, n // factor), power)[0]))
+    below = max(1, int(sympy.integer_nthroot(max(1, n // factor), power)[0]))
     return min((below, below + 1), key=lambda t: abs(factor * t**power - n))
 
 
@@ -100,5 +98,3 @@ def _exponent(part: str) -> Expr | None:
     if not (power.is_Rational and 0 < power <= 1):
         raise InputError(f"{_RULE}, the powers of N being positive with sum 1: got {part!r}")
     return power
-
-

@@ -3,10 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sympy import Expr, Integer
-
 from ..errors import InputError
 from ..signs import Assumptions, at_least
+from ..symbolic import Expr, Integer
 from .correlated_multi_jitter import correlated_multi_jitter
 from .definition import Sampler
 from .isotropic import isotropic

@@ -8,14 +8,12 @@ k_x = (n A − A')/(n − 1), A = sinc²(a/m), and likewise k_y with B = sinc²(
 Its low-frequency series has two vertices: |m|²/N² and a² b²/N² (Kensler 2013).
 """
 
-from sympy import Expr, Integer
-from sympy.polys.fields import FracElement
-
 from ..errors import InputError
 from ..kernels import Alphabet, Factor
 from ..layouts import Growth, Layout, grouped
 from ..signs import Assumptions
 from ..strata import equal_strata, parse_strata
+from ..symbolic import Expr, FracElement, Integer
 from .definition import Sampler
 from .multi_jitter import rectangle, shared_stratum
 

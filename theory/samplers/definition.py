@@ -3,11 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from sympy import Expr
-
 from ..kernels import Kernel
 from ..layouts import Layout
 from ..profiles import SaturatingMonomial
+from ..symbolic import Expr
 
 
 @dataclass(frozen=True)

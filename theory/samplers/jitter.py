@@ -4,11 +4,10 @@ N·P_S(m) = 1 − ∏_i sinc²(m_i/n_i) (paper, Eq. 5, with its missing scale n_
 Cook 1986).
 """
 
-from sympy import Expr
-
 from ..kernels import Alphabet, Kernel
 from ..layouts import Layout
 from ..signs import Assumptions
+from ..symbolic import Expr
 from .definition import Sampler
 from .stratified import grid_of, strata_of
 

@@ -10,12 +10,11 @@ A'_i = sinc²(m_i/N), so that
 
 from collections.abc import Mapping
 
-from sympy import Expr, Integer
-
 from ..errors import InputError
 from ..kernels import Alphabet
 from ..layouts import Growth, Layout, grouped
 from ..signs import Assumptions
+from ..symbolic import Expr, Integer
 from .definition import Sampler
 
 

@@ -18,14 +18,12 @@ which for d = 2 is the formula above with m = n. The paper's "multi-jitter in d 
 
 from collections.abc import Mapping
 
-from sympy import Expr, Integer
-from sympy.polys.fields import FracElement
-
 from ..errors import InputError
 from ..kernels import Alphabet, Factor
 from ..layouts import Growth, Layout, grouped
 from ..signs import Assumptions
 from ..strata import Strata, nearest_root, parse_strata
+from ..symbolic import Expr, FracElement, Integer
 from .definition import Sampler
 from .stratified import Counts
 
@@ -62,7 +60,9 @@ def _one_dimensional(assumptions: Assumptions) -> Sampler:
     alphabet = Alphabet(("N",))
     kernel = alphabet.constant() - alphabet.over(0, alphabet.sinc2(alphabet.count("N")))
     layout = Layout(grouped((Integer(1),)), assumptions=assumptions)
-    return Sampler("multi-jitter", "multi-jitter", layout, kernel, lambda n: {"N": max(1, n)}, REFERENCE)
+    return Sampler(
+        "multi-jitter", "multi-jitter", layout, kernel, lambda n: {"N": max(1, n)}, REFERENCE
+    )
 
 
 def _equal_counts(dim: int) -> Counts:

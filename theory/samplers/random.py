@@ -2,12 +2,11 @@
 
 from collections.abc import Mapping
 
-from sympy import Expr
-
 from ..errors import InputError
 from ..kernels import Alphabet
 from ..layouts import Layout, grouped
 from ..signs import Assumptions
+from ..symbolic import Expr
 from .definition import Sampler
 
 

@@ -1,10 +1,9 @@
 """Regular grid n_1 × ... × n_d: P_S(m) = ∏_i [n_i divides m_i] (paper, Appendix A)."""
 
-from sympy import Expr
-
 from ..kernels import Alphabet
 from ..layouts import Layout
 from ..signs import Assumptions
+from ..symbolic import Expr
 from .definition import Sampler
 from .stratified import grid_of, strata_of
 

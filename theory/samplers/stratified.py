@@ -3,10 +3,9 @@
 from collections.abc import Callable, Mapping
 from math import prod
 
-from sympy import Expr, Integer
-
 from ..layouts import AxisGroup, Growth, grouped
 from ..strata import Strata, equal_strata, nearest_root, parse_strata
+from ..symbolic import Expr, Integer
 
 Counts = Callable[[int], Mapping[str, int]]
 

@@ -11,14 +11,13 @@ function q_B = (N [m_B = 0] − J_B)/(N − 1), and independently shuffled block
 from collections.abc import Mapping, Sequence
 from math import lcm
 
-from sympy import Expr, Integer
-
 from ..errors import InputError
 from ..expressions import parse_size
 from ..kernels import Alphabet
 from ..layouts import AxisGroup, Growth, Layout
 from ..signs import Assumptions, at_least
 from ..strata import Strata, equal_strata, nearest_root, parse_strata
+from ..symbolic import Expr, Integer
 from .definition import Sampler
 from .jitter import cell_product
 from .stratified import Counts
@@ -87,7 +86,9 @@ def padded(blocks: Sequence[Expr | Strata], assumptions: Assumptions, name: str)
     layout = Layout(tuple(groups), growth, assumptions)
     counts_at = _counts(members, blocks)
     reference = "paper, Sec. 6.2; Cook 1986"
-    return Sampler(name, "uncorrelated-jitter", layout, alphabet.constant() + kernel, counts_at, reference)
+    return Sampler(
+        name, "uncorrelated-jitter", layout, alphabet.constant() + kernel, counts_at, reference
+    )
 
 
 def _axes(block: Expr | Strata) -> tuple[tuple[Expr, ...], tuple[Growth, ...]]:
@@ -108,7 +109,9 @@ def _outside(alphabet: Alphabet, counts: tuple[str, ...], start: int):
     return product
 
 
-def _counts(members: list[tuple[int, tuple[str, ...]]], blocks: Sequence[Expr | Strata]) -> Counts | None:
+def _counts(
+    members: list[tuple[int, tuple[str, ...]]], blocks: Sequence[Expr | Strata]
+) -> Counts | None:
     """Counts at the nearest N that is a perfect power for every block; None if none is."""
     strata: list[Strata] = []
     for block in blocks:

@@ -1,0 +1,143 @@
+"""Integrand classes: how the energy of an integrand falls on each region (Eq. 16 and beyond).
+
+On a region of dimension s a spectrum that falls in the mean as ρ^-p leaves in the shell
+[ρ, 2ρ) the energy ρ^-q, q = p − s. The paper's worst case p = d + 1 is a spherical mean over all
+d dimensions; on a support of s < d coordinates a function of those coordinates alone may have a
+jump, so the worst case of a region is p = s + 1, q = 1, everywhere. The ball is better than that:
+its spectrum falls as ρ^-(d+1) on every support, q = d + 1 − s.
+"""
+
+from dataclasses import dataclass
+
+from .errors import InputError
+from .expressions import parse_expression
+from .layouts import Layout
+from .regions import Region, region_of_support
+from .signs import nonnegative
+from .symbolic import Expr, Integer, sympy
+
+_RULE = (
+    "an integrand class is worst, best, p=NUMBER, ball, disk, box, gaussian, anisotropic-gaussian, "
+    "product:k=K, bernoulli:k=K, half-space or additive"
+)
+_SMOOTH = ("best", "gaussian", "anisotropic-gaussian")
+_JUMPS = ("worst", "box")
+
+
+@dataclass(frozen=True)
+class Decay:
+    """A class of integrands.
+
+    Parameters
+    ----------
+    name : str
+        As in the grammar: ``worst``, ``p=5/2``, ``disk:radius=0.3``.
+    family : str
+        The name without parameters.
+    number : sympy.Expr or None
+        p of ``p=...``, k of the Bernoulli integrands.
+    axes : tuple of int
+        The one support that carries the power of ``bernoulli`` and ``half-space``.
+    """
+
+    name: str
+    family: str
+    number: Expr | None = None
+    axes: tuple[int, ...] = ()
+
+
+def parse_decay(text: str) -> Decay:
+    """The class that a CLASS of the grammar names.
+
+    Raises
+    ------
+    InputError
+        If there is no such class, or its number is out of range.
+    """
+    name = text.strip()
+    head, _, parameters = name.partition(":")
+    if head.startswith("p="):
+        decay = parse_expression(head[2:])
+        if not (decay.is_Rational and decay > 1) and decay is not sympy.oo:
+            raise InputError(f"the decay in p=NUMBER must exceed 1: got {text!r}")
+        return Decay("best", "best") if decay is sympy.oo else Decay(name, "p", decay)
+    if head in ("product", "bernoulli"):
+        axes = _axes_of(parameters, text) if head == "bernoulli" else ()
+        return Decay(name, head, Integer(_order_of(parameters, text)), axes)
+    if head == "half-space":
+        return Decay(name, head, axes=(1,))
+    if head not in (*_SMOOTH, *_JUMPS, "ball", "disk", "additive"):
+        raise InputError(f"{_RULE}: got {text!r}")
+    if parameters and head in ("worst", "best", "additive"):
+        raise InputError(f"{head} takes no parameter: got {text!r}")
+    return Decay(name, head)
+
+
+def _order_of(parameters: str, text: str) -> int:
+    """k of the Bernoulli polynomial B_k, 2 unless told."""
+    for part in parameters.split(","):
+        key, _, value = part.partition("=")
+        if key.strip() == "k":
+            if not value.strip().isdigit() or int(value) < 1:
+                raise InputError(f"k must be a whole number of at least 1: got {text!r}")
+            return int(value)
+    return 2
+
+
+def _axes_of(parameters: str, text: str) -> tuple[int, ...]:
+    """The axes of a Bernoulli integrand, 1-based; the first alone unless told."""
+    if "axes=" not in parameters:
+        return (1,)
+    numbers = parameters.split("axes=")[1].strip().removeprefix("(").split(")")[0].split(",")
+    axes = [n.strip() for n in numbers if n.strip()]
+    if not axes or not all(n.isdigit() and int(n) >= 1 for n in axes):
+        raise InputError(f"axes are written as axes=(1,3): got {text!r}")
+    return tuple(int(n) for n in axes)
+
+
+def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) -> Expr | None:
+    """q on a region: oo where nothing lies beyond ρ0, None where the class has no power at all.
+
+    Parameters
+    ----------
+    flat : int
+        Dimension of the flats that sample the integrand: 0 for points, 1 for lines. The
+        spectrum is then the slice of one of ``flat`` more dimensions (ball: p = d + flat + 1).
+
+    Raises
+    ------
+    InputError
+        If p does not exceed the region's dimension (the integrand would not be in L²), or a
+        disk is asked for outside two dimensions.
+    """
+    s = region.dimension
+    if decay.family in _SMOOTH:
+        return sympy.oo
+    if decay.family in _JUMPS:
+        return Integer(1)
+    if decay.family in ("ball", "disk"):
+        full = layout.dim + flat
+        if decay.family == "disk" and full != 2:
+            raise InputError(f"a disk needs --dim 2 (use ball): got {full}")
+        return sympy.expand(full + 1 - s)
+    if decay.family == "p":
+        q = decay.number - s
+        if not nonnegative(q, region.assumptions) or q == 0:
+            raise InputError(f"p must exceed the support size s: got p = {decay.number}, s = {s}")
+        return q
+    if decay.family == "product":
+        return 2 * decay.number - 1
+    if decay.family == "additive":
+        return Integer(1) if s == 1 else None
+    if not _holds_support(layout, region, decay.axes):
+        return None
+    return Integer(1) if decay.number is None else 2 * decay.number - 1
+
+
+def _holds_support(layout: Layout, region: Region, axes: tuple[int, ...]) -> bool:
+    """Whether the one support that carries power lies in the region."""
+    if layout.dim.is_Integer:
+        return region_of_support(layout, axes).counts == region.counts
+    if axes != (1,):
+        raise InputError(f"axes other than 1 need a number as dimension: got {axes}")
+    return region.counts[0] == 1 and region.dimension == 1

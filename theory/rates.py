@@ -1,0 +1,204 @@
+"""Rates: how fast the variance falls, region by region and overall.
+
+On a region whose profile is a set of saturating monomials (b_j, N_k = N^e_j) an integrand with
+shell energies ρ^-q has Var ~ Σ_j N^-1 N^(−e_j min(b_j, q)), a logarithm exactly where b_j = q:
+
+    exponent = 1 + min_j e_j · min(b_j, q).
+
+Overall the slowest of the regions in which the integrand has power decides.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from .decays import Decay
+from .errors import UndecidedSign
+from .expansions import expand
+from .orders import Case, Order, cases, dominates, slowest
+from .primitives import Primitive, shells
+from .profiles import SaturatingMonomial, newton_polygon
+from .radial import Leading, Radial, leading
+from .regions import Region, regions
+from .samplers.definition import Sampler
+from .signs import Assumptions, nonnegative
+from .symbolic import Expr, Integer, sympy
+
+POINT = Primitive("point", 0)
+
+Profile = tuple[SaturatingMonomial, ...]
+
+
+@dataclass(frozen=True)
+class RegionRate:
+    """The rate on one region.
+
+    Parameters
+    ----------
+    region : Region
+    profile : tuple of SaturatingMonomial
+    q : sympy.Expr or None
+        Shell exponent of the integrand; None: no power, the region is left out.
+    order : Order or None
+        None where the region is left out.
+    """
+
+    region: Region
+    profile: Profile
+    q: Expr | None
+    order: Order | None
+
+
+@lru_cache(maxsize=4096)
+def _derived(sampler: Sampler, region: Region) -> Profile:
+    if sampler.kernel is None:
+        return sampler.free_profile
+    series = expand(sampler.kernel, sampler.layout, region)
+    return newton_polygon(series, region.assumptions)
+
+
+def profile_of(sampler: Sampler, region: Region) -> Profile:
+    """The profile of a sampler on a region, derived from its kernel (Eq. 18)."""
+    return _derived(sampler, region)
+
+
+def region_rates(
+    sampler: Sampler, decay: Decay, primitive: Primitive = POINT
+) -> tuple[RegionRate, ...]:
+    """Rates on all regions of a sampler for a class of integrands.
+
+    Raises
+    ------
+    UndecidedSign
+        If the monomials of a region cannot be ordered.
+    """
+    return tuple(_rate(sampler, decay, primitive, r) for r in regions(sampler.layout))
+
+
+def _rate(sampler: Sampler, decay: Decay, primitive: Primitive, region: Region) -> RegionRate:
+    q = shells(primitive, decay, sampler.layout, region)
+    if q is None:
+        return RegionRate(region, (), None, None)
+    profile = profile_of(sampler, region)
+    orders = [m.order_at(q, region.assumptions) for m in profile]
+    return RegionRate(region, profile, q, slowest(orders, region.assumptions))
+
+
+def overall(rates: tuple[RegionRate, ...], assumptions: Assumptions) -> tuple[Case, ...]:
+    """The slowest order among the regions with power, by cases if it depends on a symbol.
+
+    A sum of no terms, an integrand without power anywhere, has the order 0 (exponent oo).
+
+    Raises
+    ------
+    UndecidedSign
+        If the winner depends on two symbols, or on a region that exists for some values of them
+        only (1 < w < d needs d >= 3).
+    """
+    powered = [r for r in rates if r.order is not None]
+    lasting = _hardest([r for r in powered if r.region.assumptions == assumptions])
+    if not lasting:
+        return (Case(Order(sympy.oo)),)
+    found = cases([r.order for r in lasting if r.order is not None], assumptions)
+    for rate in powered:
+        if rate.region.assumptions != assumptions and not _is_covered(rate, lasting):
+            raise UndecidedSign(
+                f"the region {rate.region.label}, which exists only for some values of its "
+                "symbols, must not decide the rate: give the dimension as a number"
+            )
+    return found
+
+
+def _is_covered(rate: RegionRate, others: list[RegionRate]) -> bool:
+    """Whether another region is at least as slow wherever this one exists."""
+    known = rate.region.assumptions
+    return any(_is_no_harder(o, rate) or dominates(o.order, rate.order, known) for o in others)
+
+
+def _hardest(rates: list[RegionRate]) -> list[RegionRate]:
+    """Of the regions with one profile, those with the smallest q: the others are no slower."""
+    kept: list[RegionRate] = []
+    for rate in rates:
+        if any(_is_no_harder(k, rate) for k in kept):
+            continue
+        kept = [k for k in kept if not _is_no_harder(rate, k)]
+        kept.append(rate)
+    return kept
+
+
+def _is_no_harder(first: RegionRate, second: RegionRate) -> bool:
+    """Whether the profiles are one, and q of the second is proved at least that of the first."""
+    if first.profile != second.profile or first.q is None or second.q is None:
+        return False
+    if second.q is sympy.oo or first.q == second.q:
+        return True
+    return first.q is not sympy.oo and bool(
+        nonnegative(second.q - first.q, second.region.assumptions)
+    )
+
+
+def leading_constant(rate: RegionRate, decay: Decay) -> Leading | None:
+    """Leading term of Eq. 17 on a region for the classes worst and best, in c_f and ρ0.
+
+    For the monomial model: exact in the best case, where low frequencies decide; in the worst
+    case the profile stands for the true spectrum near ρ = α N_k. None where the profile's
+    coefficient, or the winner among several monomials, is not known.
+    """
+    if decay.family not in ("worst", "best") or rate.q is None or len(rate.profile) != 1:
+        return None
+    monomial = rate.profile[0]
+    if monomial.coefficient is None or rate.order is None or not rate.order.log_power.is_Integer:
+        return None
+    s = rate.region.dimension
+    gamma, alpha = monomial.plateau, monomial.alpha or Integer(1)
+    decay_power = sympy.oo if rate.q is sympy.oo else s + rate.q
+    problem = Radial(monomial.degree, s, decay_power, monomial.effective, gamma, alpha)
+    return leading(problem, rate.region.assumptions)
+
+
+@dataclass(frozen=True)
+class Crossover:
+    """N* = (C_fast/C_slow)^(1/(a_fast − a_slow)): from there on the slower region decides."""
+
+    fast: str
+    slow: str
+    count: Expr
+
+
+def crossover(fast: tuple[str, Expr, Order], slow: tuple[str, Expr, Order]) -> Crossover | None:
+    """Where two regions' terms C N^-a are equal; None if a logarithm or equal powers forbid it.
+
+    Parameters
+    ----------
+    fast, slow : (label, constant, order)
+        The constants are positive numbers or symbols.
+    """
+    gap = fast[2].exponent - slow[2].exponent
+    if gap == 0 or fast[2].log_power != 0 or slow[2].log_power != 0 or gap is sympy.oo:
+        return None
+    return Crossover(fast[0], slow[0], (fast[1] / slow[1]) ** (1 / gap))
+
+
+def low_frequency_constant(
+    profile: Profile, moment_of: "dict[tuple[tuple[int, ...], ...], Expr]"
+) -> tuple[Expr, Order] | None:
+    """Constant and order of a smooth integrand's variance on a region, from its moments.
+
+    Where all power lies far below α N_k, Var ~ Σ_j N^(−1−e_j b_j) Σ_m form_j(m) P_f(m); the
+    slowest monomial counts.
+
+    Parameters
+    ----------
+    moment_of : dict
+        For the partitions of every form of the profile, Σ_m M_λ(m²) P_f(m) on the region.
+    """
+    best: tuple[Expr, Order] | None = None
+    for monomial in profile:
+        if monomial.degree is sympy.oo:
+            continue
+        order = Order(1 + monomial.effective * monomial.degree)
+        constant = sum((c * moment_of[p.partitions] for p, c in monomial.form), Integer(0))
+        if best is None or (order.exponent - best[1].exponent).is_negative:
+            best = (constant, order)
+        elif order == best[1]:
+            best = (best[0] + constant, order)
+    return best

@@ -1,0 +1,219 @@
+"""Convergence tables: one row per region of a sampler, and one for the whole.
+
+Regions of one size, of one block, or across blocks, are joined into one row where they agree;
+where they differ each has its own row with its coordinates.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from .decays import Decay, parse_decay
+from .errors import InputError
+from .expressions import parse_size
+from .orders import Order, dominates
+from .primitives import Primitive, parse_primitive, sampled_dimension
+from .rates import RegionRate, leading_constant, overall, region_rates
+from .regions import touched
+from .samplers import FAMILIES, Sampler, parse_sampler
+from .signs import Assumptions, symbol
+from .symbolic import Expr
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row: variance ~ constant · N^-exponent (log N)^log_power on a region.
+
+    ``constant`` is that of the monomial model of Eq. 17 in c_f and ρ0, or None. ``dominated`` says
+    that another row of the same sampler and class is at least as slow. ``condition`` restricts
+    the symbols (None: none).
+    """
+
+    sampler: str
+    dim: str
+    primitive: str
+    integrand: str
+    region: str
+    order: Order
+    constant: Expr | None
+    is_overall: bool
+    dominated: bool
+    condition: Expr | None = None
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A region that a table leaves out, and why."""
+
+    sampler: str
+    integrand: str
+    region: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows in the order asked for, and what was left out."""
+
+    rows: tuple[Row, ...]
+    left_out: tuple[LeftOut, ...]
+
+
+def default_samplers(dim: Expr) -> tuple[str, ...]:
+    """The catalogue in a dimension: each family once, with the paper's blocks for Eq. 26."""
+    names = [f.name for f in FAMILIES if f.name not in ("uncorrelated-jitter", "isotropic")]
+    if not (dim.is_number and dim == 2):
+        names.remove("correlated-multi-jitter")
+    if not dim.is_number:
+        names.append(f"uncorrelated-jitter:1+2+({dim - 3})")
+    elif dim >= 4:
+        names.append(f"uncorrelated-jitter:1+2+{dim - 3}")
+    return (*names, "isotropic:b")
+
+
+def table(
+    samplers: Sequence[str] = (),
+    dims: Sequence[str | int] = ("d",),
+    integrands: Sequence[str] = ("worst", "best"),
+    primitive: str = "point",
+) -> Table:
+    """Convergence table of samplers × dimensions × integrand classes.
+
+    Parameters
+    ----------
+    samplers : sequence of str
+        Grammar of samplers; empty: the whole catalogue.
+    dims : sequence of str or int
+        Numbers, or ``"d"`` to keep the dimension symbolic.
+    integrands : sequence of str
+        Grammar of classes.
+    primitive : str
+        ``point``, ``line``, ``segment`` or ``K-flat``.
+
+    Returns
+    -------
+    Table
+        Derived rows; nothing in it is typed in.
+
+    Raises
+    ------
+    InputError
+        If a text is outside its grammar or does not fit the dimension.
+    """
+    kind = parse_primitive(primitive)
+    classes = [parse_decay(i) for i in integrands]
+    rows: list[Row] = []
+    left_out: list[LeftOut] = []
+    for text in dims:
+        dim = parse_dim(text)
+        size = sampled_dimension(kind, dim)
+        for name in samplers or default_samplers(size):
+            sampler = parse_sampler(name, size)
+            for decay in classes:
+                rates = region_rates(sampler, decay, kind)
+                rows += _rows(sampler, str(dim), kind, decay, rates)
+                left_out += _left_out(sampler, decay, rates)
+    return Table(tuple(rows), tuple(left_out))
+
+
+def parse_dim(text: str | int) -> Expr:
+    """A dimension of the grammar: a whole number of at least 1, or ``d``."""
+    if isinstance(text, int):
+        return parse_size(str(text))
+    if not (text.strip() == "d" or text.strip().isdigit()):
+        raise InputError(f"a dimension is a whole number or d: got {text!r}")
+    return parse_size(text, {"d": symbol("d")})
+
+
+def _rows(
+    sampler: Sampler, dim: str, kind: Primitive, decay: Decay, rates: tuple[RegionRate, ...]
+) -> Iterator[Row]:
+    cases = overall(rates, sampler.layout.assumptions)
+    head = (sampler.name, dim, kind.name, decay.name)
+    joined = list(joined_regions(sampler, rates))
+    top = cases[0].order
+    for index, (region, rate) in enumerate(joined):
+        order: Order = rate.order
+        is_top = (
+            len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
+        )
+        dominated = not is_top and _is_dominated(order, top, len(cases), rate.region.assumptions)
+        found = leading_constant(rate, decay)
+        constant = found.constant if found else None
+        yield Row(*head, region, order, constant, False, dominated)
+    for case in cases:
+        yield Row(*head, "overall", case.order, None, True, False, case.condition)
+
+
+def _is_dominated(order: Order, top: Order, cases: int, assumptions: Assumptions) -> bool:
+    return cases == 1 and bool(dominates(top, order, assumptions))
+
+
+def _left_out(sampler: Sampler, decay: Decay, rates: tuple[RegionRate, ...]) -> Iterator[LeftOut]:
+    for rate in rates:
+        if rate.order is None:
+            why = "the integrand has no power there"
+            yield LeftOut(sampler.name, decay.name, rate.region.label, why)
+
+
+def joined_regions(
+    sampler: Sampler, rates: tuple[RegionRate, ...]
+) -> Iterator[tuple[str, RegionRate]]:
+    """(name, rate) of the regions with power, those of one class joined where they agree."""
+    classes: dict[str, list[RegionRate]] = {}
+    for rate in rates:
+        if rate.order is not None:
+            classes.setdefault(_class(sampler, rate), []).append(rate)
+    for name, members in classes.items():
+        first = members[0]
+        if all(_alike(first, m) for m in members):
+            yield name, members[-1]
+        else:
+            yield from ((m.region.label, m) for m in members)
+
+
+def _alike(first: RegionRate, second: RegionRate) -> bool:
+    return first.order == second.order and first.profile == second.profile
+
+
+def _class(sampler: Sampler, rate: RegionRate) -> str:
+    """The common name of regions that are joined if they agree."""
+    layout, counts = sampler.layout, rate.region.counts
+    blocks = touched(layout, counts)
+    if len(layout.blocks) > 1:
+        if len(blocks) > 1:
+            return "across"
+        return f"within {{{layout.block_coordinates(blocks[0])}}}"
+    s = rate.region.dimension
+    if s == 1:
+        return "axis"
+    if s == layout.dim:
+        return "generic"
+    return f"w={s}" if s.is_Integer else f"1<{s}<{layout.dim}"
+
+
+def document(found: Table) -> dict[str, object]:
+    """The table as the JSON document of the command line."""
+    return {
+        "rows": [
+            {
+                "sampler": r.sampler,
+                "dim": r.dim,
+                "primitive": r.primitive,
+                "integrand": r.integrand,
+                "region": r.region,
+                "exponent": str(r.order.exponent),
+                "log_power": str(r.order.log_power),
+                "constant": None if r.constant is None else str(r.constant),
+                "origin": "derived",
+                "overall": r.is_overall,
+                "dominated": r.dominated,
+                "condition": None if r.condition is None else str(r.condition),
+            }
+            for r in found.rows
+        ],
+        "crossovers": [],
+        "left_out": [
+            {"sampler": x.sampler, "integrand": x.integrand, "region": x.region, "why": x.why}
+            for x in found.left_out
+        ],
+    }
