@@ -73,11 +73,11 @@ def _product_variance(
         ]
         value, held = _tree_value(sampler.kernel, sums, members)  # type: ignore[arg-type]
         value *= sums.padding(set(range(len(groups))) - held, members)
-        mean = mp.mpf(1)
+        at_zero = element_value(sampler.kernel.at_zero(), counts)  # type: ignore[union-attr]
         for f in factors:
-            mean *= f.mean() ** 2
-        variance = (value - counts["N"] * mean) / counts["N"]
-        error = abs(value) * mp.mpf(10) ** (-(digits + spare - 5)) / counts["N"]
+            at_zero *= f.mean() ** 2
+        variance = (value - at_zero) / counts["N"]
+        error = (abs(value) + abs(at_zero)) * mp.mpf(10) ** (-(digits + spare - 5)) / counts["N"]
     return ExactVariance(variance, error, "product")
 
 

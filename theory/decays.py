@@ -110,7 +110,7 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
         If p does not exceed the region's dimension (the integrand would not be in L²), or a
         disk is asked for outside two dimensions.
     """
-    s = region.dimension
+    s, number = region.dimension, decay.number or Integer(1)  # a jump is k = 1
     if decay.family in _SMOOTH:
         return sympy.oo
     if decay.family in _JUMPS:
@@ -121,17 +121,17 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
             raise InputError(f"a disk needs --dim 2 (use ball): got {full}")
         return sympy.expand(full + 1 - s)
     if decay.family == "p":
-        q = decay.number - s
+        q = number - s
         if not nonnegative(q, region.assumptions) or q == 0:
-            raise InputError(f"p must exceed the support size s: got p = {decay.number}, s = {s}")
+            raise InputError(f"p must exceed the support size s: got p = {number}, s = {s}")
         return q
     if decay.family == "product":
-        return 2 * decay.number - 1
+        return 2 * number - 1
     if decay.family == "additive":
         return Integer(1) if s == 1 else None
     if not _holds_support(layout, region, decay.axes):
         return None
-    return Integer(1) if decay.number is None else 2 * decay.number - 1
+    return 2 * number - 1
 
 
 def _holds_support(layout: Layout, region: Region, axes: tuple[int, ...]) -> bool:

@@ -123,6 +123,18 @@ class Kernel:
             return Kernel("sum", parts=tuple(p.scaled(coefficient) for p in self.parts))
         return Kernel("product", parts=(self.parts[0].scaled(coefficient), *self.parts[1:]))
 
+    def at_zero(self) -> FracElement:
+        """The formula's value at m = 0, which no variance uses (N·P_S(0) itself is N)."""
+        if self.term is not None:
+            value = self.term.coefficient
+            for _, factor in self.term.factors:
+                value *= factor.at_zero()
+            return value
+        total = self.parts[0].at_zero()
+        for part in self.parts[1:]:
+            total = total + part.at_zero() if self.kind == "sum" else total * part.at_zero()
+        return total
+
     def restrict(self, counts: tuple[Expr | int, ...]) -> tuple[Term, ...]:
         """Terms of the kernel on supports with ``counts[g]`` axes in group g.
 

@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from .errors import UndecidedSign
 from .signs import Assumptions, Sign, sign_changes, sign_of
-from .symbolic import Expr, Integer, sympy
+from .symbolic import Expr, Integer, Symbol, sympy
 
 
 @dataclass(frozen=True)
@@ -209,7 +209,7 @@ def cases(orders: Iterable[Order], assumptions: Assumptions = ()) -> tuple[Case,
 
 
 def _split(
-    kept: tuple[Order, ...], free: sympy.Symbol, lower: Expr, roots: list[sympy.Rational]
+    kept: tuple[Order, ...], free: Symbol, lower: Expr, roots: list[Expr]
 ) -> tuple[Case, ...]:
     """One case below, between and above the roots; a root joins the side that agrees there."""
     between = [(a + b) / 2 for a, b in pairwise(roots)]

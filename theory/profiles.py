@@ -154,7 +154,7 @@ def _monomial(
 ) -> SaturatingMonomial:
     degree, decay = line
     effective = sympy.expand(decay / degree) if degree != 0 else Integer(0)
-    mean = sum((c * p.angular_mean(series.counts) for p, c in forms), Integer(0))
+    mean = sympy.Add(*[c * p.angular_mean(series.counts) for p, c in forms])
     return SaturatingMonomial(
         degree, effective, sympy.nsimplify(mean) if mean.is_Rational else mean, form=tuple(forms)
     )

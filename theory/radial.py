@@ -11,6 +11,7 @@ c2 = c ρ0^p (erratum to Eq. 16), and its Jacobian on a region is ρ^(s−1) (er
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 from .errors import InputError, UndecidedSign
@@ -110,7 +111,7 @@ def _pieces(problem: Radial, crossed: bool) -> Iterator[tuple[Expr, Expr, Expr, 
     """(coefficient, power of ν, power of ρ, from, to) of the integrand's pieces, ordered."""
     b, s, p = problem.degree, problem.dimension, problem.decay
     breaks: tuple[Break, ...] = ("0", "rho0", "nu", "oo") if crossed else ("0", "nu", "rho0", "oo")
-    for lower, upper in zip(breaks, breaks[1:], strict=False):
+    for lower, upper in pairwise(breaks):
         rising = upper == "nu" or (crossed and lower == "0")
         falling = lower == "rho0" or (crossed and lower == "nu")
         if (rising and b is sympy.oo) or (falling and (p is sympy.oo or problem.c2 == 0)):

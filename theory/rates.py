@@ -111,7 +111,13 @@ def overall(rates: tuple[RegionRate, ...], assumptions: Assumptions) -> tuple[Ca
 def _is_covered(rate: RegionRate, others: list[RegionRate]) -> bool:
     """Whether another region is at least as slow wherever this one exists."""
     known = rate.region.assumptions
-    return any(_is_no_harder(o, rate) or dominates(o.order, rate.order, known) for o in others)
+    return any(_is_no_harder(o, rate) or _dominates(o, rate, known) for o in others)
+
+
+def _dominates(first: RegionRate, second: RegionRate, known: Assumptions) -> bool:
+    if first.order is None or second.order is None:
+        return second.order is None
+    return bool(dominates(first.order, second.order, known))
 
 
 def _hardest(rates: list[RegionRate]) -> list[RegionRate]:

@@ -110,12 +110,12 @@ def touched(layout: Layout, counts: tuple[Expr, ...]) -> tuple[int, ...]:
 
 def label(layout: Layout, counts: tuple[Expr, ...]) -> str:
     """The region's name: ``axis``, ``w=2``, ``generic``, ``1,3``, ``within {2,3}``, ``across``."""
-    blocks = touched(layout, counts)
+    block, *others = touched(layout, counts)
     if len(layout.blocks) > 1:
-        if len(blocks) > 1:
+        if others:
             return "across " + _coordinates(layout, counts)
-        name = f"within {{{layout.block_coordinates(blocks[0])}}}"
-        members = layout.blocks[blocks[0]]
+        name = f"within {{{layout.block_coordinates(block)}}}"
+        members = layout.blocks[block]
         if all(counts[g] == layout.groups[g].size for g in members):
             return name
         return f"{name} at " + _inside(layout, counts, members)

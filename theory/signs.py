@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from .symbolic import Expr, Integer, Rational, Symbol, sympy
+from .symbolic import Expr, Integer, Symbol, sympy
 
 Sign = Literal["-", "<=0", "0", ">=0", "+"] | None
 """A proved sign: negative, not positive, zero, not negative, positive; None is undecided."""
@@ -87,7 +87,9 @@ def sign_of(expression: Expr, assumptions: Assumptions = ()) -> Sign:
 def _sign_of_number(number: Expr) -> Sign:
     if number.is_zero:
         return "0"
-    return "+" if number.is_positive else "-" if number.is_negative else None
+    if number.is_positive:
+        return "+"
+    return "-" if number.is_negative else None
 
 
 def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
@@ -105,7 +107,9 @@ def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
             u, v = (sympy.Min(*(set(m.args) - x)) for m in minima)
             return _WEAK[sign_of(k * (u - v), assumptions)]
     least = minima[0]
-    signs = {sign_of(expression.xreplace({least: a}), assumptions) for a in least.args}
+    signs: set[Sign] = {
+        sign_of(expression.xreplace({least: a}), assumptions) for a in least.args
+    }
     return signs.pop() if len(signs) == 1 else None
 
 
@@ -154,7 +158,8 @@ def _sign_by_values(expression: Expr, t: Symbol) -> Sign:
     for value in range(_TRIED):
         later = _sign_of_quotient(expression.xreplace({t: t + value}))
         if later is not None:
-            return _common_sign(seen | {later})
+            seen.add(later)
+            return _common_sign(seen)
         seen.add(_sign_of_number(sympy.cancel(expression.xreplace({t: Integer(value)}))))
     return None
 
@@ -169,7 +174,7 @@ def _common_sign(signs: set[Sign]) -> Sign:
 
 def sign_changes(
     expression: Expr, assumptions: Assumptions
-) -> tuple[Symbol, list[Rational]] | None:
+) -> tuple[Symbol, list[Expr]] | None:
     """Where the sign of a rational function of one symbol changes, or None if it has more.
 
     Returns

@@ -70,7 +70,7 @@ def parse_strata(text: str, axes: int) -> Strata:
     if all(p.isdigit() for p in parts):
         return Strata(tuple(_whole(p) for p in parts), (1,) * axes)
     exponents = [_exponent(p) for p in parts]
-    given = sum((e for e in exponents if e is not None), Integer(0))
+    given = sympy.Add(*[e for e in exponents if e is not None])
     bare = sum(e is None for e in exponents)
     powers = [(1 - given) / bare if e is None else e for e in exponents]
     if sum(powers) != 1 or any(p < 0 for p in powers):

@@ -61,7 +61,7 @@ class Table:
 def default_samplers(dim: Expr) -> tuple[str, ...]:
     """The catalogue in a dimension: each family once, with the paper's blocks for Eq. 26."""
     names = [f.name for f in FAMILIES if f.name not in ("uncorrelated-jitter", "isotropic")]
-    if not (dim.is_number and dim == 2):
+    if dim != 2:
         names.remove("correlated-multi-jitter")
     if not dim.is_number:
         names.append(f"uncorrelated-jitter:1+2+({dim - 3})")
@@ -132,7 +132,9 @@ def _rows(
     joined = list(joined_regions(sampler, rates))
     top = cases[0].order
     for index, (region, rate) in enumerate(joined):
-        order: Order = rate.order
+        order = rate.order
+        if order is None:
+            continue
         is_top = (
             len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
         )
@@ -178,11 +180,9 @@ def _alike(first: RegionRate, second: RegionRate) -> bool:
 def _class(sampler: Sampler, rate: RegionRate) -> str:
     """The common name of regions that are joined if they agree."""
     layout, counts = sampler.layout, rate.region.counts
-    blocks = touched(layout, counts)
+    first, *others = touched(layout, counts)
     if len(layout.blocks) > 1:
-        if len(blocks) > 1:
-            return "across"
-        return f"within {{{layout.block_coordinates(blocks[0])}}}"
+        return "across" if others else f"within {{{layout.block_coordinates(first)}}}"
     s = rate.region.dimension
     if s == 1:
         return "axis"
