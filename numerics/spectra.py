@@ -6,7 +6,6 @@ P_S on arrays of frequencies in double precision.
 """
 
 from collections.abc import Mapping, Sequence
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,14 +76,14 @@ def scaled_power(sampler: Sampler, counts: Counts, m: Sequence[int]) -> Mpf:
     """
     asked = mp.dps
     working = asked + 15
-    previous: Mpf | None = None
+    value, previous = mp.mpf(0), None
     while working < 200 * asked:
         with mp.workdps(working):
             value = _plain_scaled_power(sampler, counts, m)
         if previous is not None and abs(value - previous) <= abs(value) * mp.mpf(10) ** (1 - asked):
-            return +value
+            break
         previous, working = value, working * 3 // 2 + 10
-    return +value  # a spectrum that is zero to all digits
+    return +value  # a spectrum that is zero never settles
 
 
 def _plain_scaled_power(sampler: Sampler, counts: Counts, m: Sequence[int]) -> Mpf:
@@ -132,9 +131,10 @@ def power_array(
     """
     flat = m.reshape(-1, m.shape[-1])
     result = np.ones(len(flat))
-    for mask in product((False, True), repeat=m.shape[-1]):
-        rows = np.flatnonzero(((flat != 0) == np.array(mask)).all(axis=1))
-        if any(mask) and rows.size:
+    masks, inverse = np.unique(flat != 0, axis=0, return_inverse=True)
+    for index, mask in enumerate(masks):
+        rows = np.flatnonzero(inverse.reshape(-1) == index)
+        if mask.any():
             result[rows] = _on_support(sampler, counts, flat[rows], np.flatnonzero(mask) + 1)
     return result.reshape(m.shape[:-1])
 

@@ -20,7 +20,8 @@ from ..theory.symbolic import FracElement
 from .integrands.protocol import Factor, Integrand, Mpf, mp
 from .spectra import element_value, power_array
 
-_BOX = 2_000_000  # frequencies in the lattice sum
+BOX = 2_000_000
+"""Frequencies in a lattice sum."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,11 @@ class ExactVariance:
 
 
 def exact_variance(
-    sampler: Sampler, counts: Mapping[str, int], integrand: Integrand, digits: int = 15
+    sampler: Sampler,
+    counts: Mapping[str, int],
+    integrand: Integrand,
+    digits: int = 15,
+    box: int = BOX,
 ) -> ExactVariance:
     """Exact variance at the N of the given counts.
 
@@ -57,7 +62,7 @@ def exact_variance(
         raise InputError(f"an exact variance needs a sampler with a spectrum: got {sampler.name}")
     if integrand.factors is not None:
         return _product_variance(sampler, counts, integrand.factors, digits)
-    return _lattice_variance(sampler, counts, integrand)
+    return _lattice_variance(sampler, counts, integrand, box)
 
 
 def _product_variance(
@@ -141,7 +146,7 @@ def _tree_value(
                 value *= sums.of(coordinate, factor)
         return value, {group for group, _ in kernel.term.factors}
     parts = [_tree_value(p, sums, members) for p in kernel.parts]
-    held: set[int] = set().union(*(groups for _, groups in parts))
+    held = {group for _, groups in parts for group in groups}
     if kernel.kind == "product":
         value = mp.mpf(1)
         for part, _ in parts:
@@ -156,7 +161,7 @@ def _tree_value(
 
 
 def _lattice_variance(
-    sampler: Sampler, counts: Mapping[str, int], integrand: Integrand
+    sampler: Sampler, counts: Mapping[str, int], integrand: Integrand, box: int
 ) -> ExactVariance:
     d = int(sampler.dim)
     if d > 3 or sampler.family in ("regular", "correlated-multi-jitter"):
@@ -164,7 +169,7 @@ def _lattice_variance(
             "an exact variance of an integrand that is no product needs --dim of at most 3 and a "
             f"sampler without combs: got {sampler.name} with --dim {d}"
         )
-    half = int(_BOX ** (1 / d)) // 2
+    half = int(box ** (1 / d)) // 2
     axis = np.arange(-half, half + 1)
     inside = total = 0.0
     for first in axis:  # slabs keep the memory small

@@ -14,10 +14,11 @@ two-sided comparison of profile and kernel in the numerics room.
 Below the first alias a comb is [m = 0] and drops out; what it adds above is kept as its mean.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, reduce
 from itertools import product
+from operator import add
 
 from .errors import UndecidedSign
 from .kernels import Factor, Kernel, Term
@@ -100,7 +101,8 @@ class Series:
 
 
 # A coefficient is a sum of field elements times symbolic powers of field elements.
-_Bases = tuple[tuple[FracElement, Expr], ...]
+_Base = tuple[FracElement, Expr]
+_Bases = tuple[_Base, ...]
 _Coefficient = dict[_Bases, FracElement]
 
 
@@ -136,7 +138,7 @@ def _partitions(w: Expr) -> tuple[tuple[int, ...], ...]:
 
 
 @cache
-def _sinc2_coefficient(k: int) -> Rational:
+def _sinc2_coefficient(k: int) -> Expr:
     """s_k in sinc²(x) = Σ s_k π^2k x^2k, from (1 − cos 2πx)/(2π²x²)."""
     return Rational((-1) ** k * 2 ** (2 * k + 1), sympy.factorial(2 * k + 2))
 
@@ -171,7 +173,8 @@ def _times_sinc2(
 
 def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> _Coefficient:
     factors = dict(term.factors)
-    value, bases = term.coefficient, []
+    value: FracElement = term.coefficient
+    bases: list[_Base] = []
     for group, (partition, w) in enumerate(zip(powers.partitions, counts, strict=True)):
         if w == 0:
             continue
@@ -189,7 +192,7 @@ def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> _
 
 def _group_coefficient(
     series: tuple[FracElement, ...], partition: tuple[int, ...], w: Expr
-) -> tuple[FracElement, list[tuple[FracElement, Expr]]]:
+) -> tuple[FracElement, list[_Base]]:
     """Coefficient of M_λ in the product of one factor over w axes, with a symbolic power."""
     one = series[0].field(1)
     if partition == FULL:
@@ -218,7 +221,7 @@ def _summed(coefficients: Iterator[_Coefficient]) -> _Coefficient:
 
 
 def _leading(
-    coefficient: _Coefficient, growth: dict[str, Growth], assumptions: Assumptions
+    coefficient: _Coefficient, growth: Mapping[str, Growth], assumptions: Assumptions
 ) -> tuple[Expr, Expr] | None:
     """Largest power of N in a coefficient and its constant; None for a zero coefficient."""
     found: list[tuple[Expr, Expr]] = []
@@ -232,7 +235,7 @@ def _leading(
 
 
 def leading_power(
-    element: FracElement, growth: dict[str, Growth], assumptions: Assumptions = ()
+    element: FracElement, growth: Mapping[str, Growth], assumptions: Assumptions = ()
 ) -> tuple[Expr, Expr]:
     """(a, C) with element ~ C N^a under the growth laws of its counts."""
     over = _leading_of_polynomial(element.numer, growth, assumptions)
@@ -240,7 +243,9 @@ def leading_power(
     return over[0] - under[0], over[1] / under[1]
 
 
-def _leading_of_polynomial(polynomial, growth: dict[str, Growth], assumptions: Assumptions):
+def _leading_of_polynomial(
+    polynomial: FracElement, growth: Mapping[str, Growth], assumptions: Assumptions
+) -> tuple[Expr, Expr]:
     laws = [growth[str(s)] for s in polynomial.ring.symbols[1:]]
     found: list[tuple[Expr, Expr]] = []
     for (half_pi, *powers), number in polynomial.terms():
@@ -275,7 +280,7 @@ def _largest(terms: list[tuple[Expr, Expr]], assumptions: Assumptions) -> tuple[
 
 def _combs(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[Comb]:
     """The mean that each set of comb axes adds above its first alias."""
-    heights: dict[tuple[tuple[FracElement, Expr], ...], list[_Coefficient]] = {}
+    heights: dict[_Bases, list[_Coefficient]] = {}
     for term in terms:
         for combs, coefficient in _comb_terms(term, region.counts):
             heights.setdefault(combs, []).append(coefficient)
@@ -293,30 +298,31 @@ def _combs(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[
         yield Comb(threshold, sympy.expand(height), lead[1])
 
 
-def _comb_terms(
-    term: Term, counts: tuple[Expr, ...]
-) -> Iterator[tuple[tuple[tuple[FracElement, Expr], ...], _Coefficient]]:
+def _comb_terms(term: Term, counts: tuple[Expr, ...]) -> Iterator[tuple[_Bases, _Coefficient]]:
     """Choices of comb axes in a term: (count, number of axes) and the coefficient at m = 0."""
     choices = [list(_comb_choices(factor, counts[g])) for g, factor in term.factors]
     for pick in product(*choices):
         combs = tuple(c for combs, _ in pick for c in combs)
         if combs:
-            value, bases = term.coefficient, []
+            value: FracElement = term.coefficient
+            bases: list[_Base] = []
             for _, (coefficient, base) in pick:
                 value, bases = value * coefficient, bases + base
             if value != 0:
                 yield combs, {tuple(bases): value}
 
 
-def _comb_choices(factor: Factor, w: Expr):
+def _comb_choices(
+    factor: Factor, w: Expr
+) -> Iterator[tuple[_Bases, tuple[FracElement, list[_Base]]]]:
     """For one group: no comb at all, or all w axes on a comb (mixed only for w = 1)."""
     plain = Factor(tuple((c, a) for c, a in factor.terms if not a.combs))
     if plain.terms:
         yield (), _group_coefficient(_series(plain), (), w)
     counts = sorted({n for _, a in factor.terms for n in a.combs}, key=str)
-    if counts and plain.terms and w != 1:
+    if counts and plain.terms and w != Integer(1):
         raise ValueError(f"a comb beside other terms must stand on a group of one axis: got {w}")
     for count in counts:
-        zero = factor.terms[0][0].field(0)
-        value = sum((c for c, a in factor.terms if a.combs == (count,)), zero)
-        yield ((count, w),), ((value ** int(w), []) if w.is_Integer else (zero + 1, [(value, w)]))
+        field = factor.terms[0][0].field
+        value = reduce(add, (c for c, a in factor.terms if a.combs == (count,)), field(0))
+        yield ((count, w),), ((value ** int(w), []) if w.is_Integer else (field(1), [(value, w)]))

@@ -35,7 +35,7 @@ class Order:
 
     def __post_init__(self) -> None:
         object.__setattr__(
-            self, "exponent", sympy.expand(sympy.sympify(self.exponent, strict=True))
+            self, "exponent", _partial_fractions(sympy.sympify(self.exponent, strict=True))
         )
         log = (
             Integer(0) if self.exponent is sympy.oo else sympy.sympify(self.log_power, strict=True)
@@ -65,6 +65,16 @@ class Order:
         if isinstance(self.log_power, sympy.KroneckerDelta):
             return rf"{power}(\log N)^{{[{_latex_tie(self.log_power)}]}}"
         return rf"{power}(\log N)^{{{sympy.latex(self.log_power)}}}"
+
+
+def _partial_fractions(exponent: Expr) -> Expr:
+    """One form for one exponent: d/(d − 1) + 1/(d − 1) becomes 1 + 2/(d − 1)."""
+    expanded = sympy.expand(exponent)
+    if expanded.is_number or not expanded.is_rational_function():
+        return expanded
+    quotient = sympy.together(expanded)
+    free = sympy.fraction(quotient)[1].free_symbols
+    return sympy.expand(sympy.apart(quotient, *free)) if len(free) == 1 else expanded
 
 
 CONSTANT = Order(Integer(0))

@@ -111,7 +111,7 @@ def overall(rates: tuple[RegionRate, ...], assumptions: Assumptions) -> tuple[Ca
 def _is_covered(rate: RegionRate, others: list[RegionRate]) -> bool:
     """Whether another region is at least as slow wherever this one exists."""
     known = rate.region.assumptions
-    return any(_is_no_harder(o, rate) or _dominates(o, rate, known) for o in others)
+    return any(is_no_harder(o, rate) or _dominates(o, rate, known) for o in others)
 
 
 def _dominates(first: RegionRate, second: RegionRate, known: Assumptions) -> bool:
@@ -124,14 +124,14 @@ def _hardest(rates: list[RegionRate]) -> list[RegionRate]:
     """Of the regions with one profile, those with the smallest q: the others are no slower."""
     kept: list[RegionRate] = []
     for rate in rates:
-        if any(_is_no_harder(k, rate) for k in kept):
+        if any(is_no_harder(k, rate) for k in kept):
             continue
-        kept = [k for k in kept if not _is_no_harder(rate, k)]
+        kept = [k for k in kept if not is_no_harder(rate, k)]
         kept.append(rate)
     return kept
 
 
-def _is_no_harder(first: RegionRate, second: RegionRate) -> bool:
+def is_no_harder(first: RegionRate, second: RegionRate) -> bool:
     """Whether the profiles are one, and q of the second is proved at least that of the first."""
     if first.profile != second.profile or first.q is None or second.q is None:
         return False

@@ -115,18 +115,18 @@ def label(layout: Layout, counts: tuple[Expr, ...]) -> str:
         if others:
             return "across " + _coordinates(layout, counts)
         name = f"within {{{layout.block_coordinates(block)}}}"
-        members = layout.blocks[block]
-        if all(counts[g] == layout.groups[g].size for g in members):
+        if all(counts[g] == layout.groups[g].size for g in layout.blocks[block]):
             return name
-        return f"{name} at " + _inside(layout, counts, members)
-    return _inside(layout, counts, layout.blocks[0])
+        return f"{name} at " + _inside(layout, counts, layout.blocks[block])
+    return _inside(layout, counts, layout.blocks[block])
 
 
 def _inside(layout: Layout, counts: tuple[Expr, ...], members: tuple[int, ...]) -> str:
     """Name of a support inside one block."""
-    if len(members) > 1:
+    member, *others = members
+    if others:
         return _coordinates(layout, counts)
-    count, size = counts[members[0]], layout.groups[members[0]].size
+    count, size = counts[member], layout.groups[member].size
     if count == 1:
         return "axis"
     if count == size:
@@ -169,7 +169,7 @@ def region_of_support(layout: Layout, support: tuple[int, ...]) -> Region:
     if len(set(support)) != len(support) or not support or not all(1 <= i <= d for i in support):
         raise InputError(f"a support has distinct coordinates in 1..{d}: got {support}")
     counts = tuple(
-        Integer(sum(g.first <= i < g.first + g.size for i in support)) for g in layout.groups
+        Integer(sum(bool(g.first <= i < g.first + g.size) for i in support)) for g in layout.groups
     )
     return Region(counts, label(layout, counts), layout.assumptions)
 

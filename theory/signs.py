@@ -107,9 +107,7 @@ def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
             u, v = (sympy.Min(*(set(m.args) - x)) for m in minima)
             return _WEAK[sign_of(k * (u - v), assumptions)]
     least = minima[0]
-    signs: set[Sign] = {
-        sign_of(expression.xreplace({least: a}), assumptions) for a in least.args
-    }
+    signs: set[Sign] = {sign_of(expression.xreplace({least: a}), assumptions) for a in least.args}
     return signs.pop() if len(signs) == 1 else None
 
 
@@ -172,9 +170,7 @@ def _common_sign(signs: set[Sign]) -> Sign:
     return None
 
 
-def sign_changes(
-    expression: Expr, assumptions: Assumptions
-) -> tuple[Symbol, list[Expr]] | None:
+def sign_changes(expression: Expr, assumptions: Assumptions) -> tuple[Symbol, list[Expr]] | None:
     """Where the sign of a rational function of one symbol changes, or None if it has more.
 
     Returns

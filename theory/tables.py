@@ -12,11 +12,11 @@ from .errors import InputError
 from .expressions import parse_size
 from .orders import Order, dominates
 from .primitives import Primitive, parse_primitive, sampled_dimension
-from .rates import RegionRate, leading_constant, overall, region_rates
+from .rates import RegionRate, is_no_harder, leading_constant, overall, region_rates
 from .regions import touched
 from .samplers import FAMILIES, Sampler, parse_sampler
-from .signs import Assumptions, symbol
-from .symbolic import Expr
+from .signs import symbol
+from .symbolic import Expr, Integer
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Table:
 def default_samplers(dim: Expr) -> tuple[str, ...]:
     """The catalogue in a dimension: each family once, with the paper's blocks for Eq. 26."""
     names = [f.name for f in FAMILIES if f.name not in ("uncorrelated-jitter", "isotropic")]
-    if dim != 2:
+    if dim != Integer(2):
         names.remove("correlated-multi-jitter")
     if not dim.is_number:
         names.append(f"uncorrelated-jitter:1+2+({dim - 3})")
@@ -138,7 +138,7 @@ def _rows(
         is_top = (
             len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
         )
-        dominated = not is_top and _is_dominated(order, top, len(cases), rate.region.assumptions)
+        dominated = not is_top and len(cases) == 1 and _is_dominated(rate, top, rates)
         found = leading_constant(rate, decay)
         constant = found.constant if found else None
         yield Row(*head, region, order, constant, False, dominated)
@@ -146,8 +146,11 @@ def _rows(
         yield Row(*head, "overall", case.order, None, True, False, case.condition)
 
 
-def _is_dominated(order: Order, top: Order, cases: int, assumptions: Assumptions) -> bool:
-    return cases == 1 and bool(dominates(top, order, assumptions))
+def _is_dominated(rate: RegionRate, top: Order, rates: tuple[RegionRate, ...]) -> bool:
+    known = rate.region.assumptions
+    return (rate.order is not None and bool(dominates(top, rate.order, known))) or any(
+        r.order == top and is_no_harder(r, rate) for r in rates
+    )
 
 
 def _left_out(sampler: Sampler, decay: Decay, rates: tuple[RegionRate, ...]) -> Iterator[LeftOut]:

@@ -48,7 +48,7 @@ def generate(
         case "latin-hypercube":
             return latin_hypercube(counts["N"], dim, replicates, rng)
         case "regular":
-            return regular(strata_of(sampler, counts), replicates)
+            return regular(strata_of(sampler, counts), replicates, rng)
         case "jitter":
             return jitter(strata_of(sampler, counts), replicates, rng)
         case "multi-jitter" if dim == 1:

@@ -21,10 +21,17 @@ def jitter(strata: Sequence[int], replicates: int, rng: np.random.Generator) -> 
     return below_one(points)
 
 
-def regular(strata: Sequence[int], replicates: int) -> NDArray[np.float64]:
-    """The corner of each cell, the same in every replicate; shape (replicates, ∏ strata, d)."""
-    grid = cells(strata) / np.asarray(strata, dtype=np.float64)
-    return np.broadcast_to(grid, (replicates, *grid.shape)).copy()
+def regular(
+    strata: Sequence[int], replicates: int, rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """The grid moved as a whole by one uniform vector; shape (replicates, ∏ strata, d).
+
+    A grid that stays in place is no unbiased sampler; its homogenised form is what the theory
+    speaks of.
+    """
+    counts = np.asarray(strata, dtype=np.float64)
+    points = (cells(strata) + rng.random((replicates, 1, len(strata)))) / counts
+    return below_one(points)
 
 
 def below_one(points: NDArray[np.float64]) -> NDArray[np.float64]:

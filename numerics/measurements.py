@@ -1,0 +1,110 @@
+"""What a check measures at one N: spectra on raw points, variances on shifted ones.
+
+The spectrum |F_S(m)|² does not change under a toroidal shift, so it is measured on the raw points
+without the noise of shifts. Variances are those of the randomly shifted estimator, which is what
+the theory speaks of; the raw estimator's stand beside. Everything is kept as moments, so that the
+memory does not depend on the number of realisations.
+"""
+
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .campaign import Interval, Moments, estimates, shifted, update, variance_interval
+from .catalogue_source import CHUNK, CatalogueSource
+from .integrands.protocol import Integrand
+from .probes import Frequency, amplitudes
+from .sources import Source
+from .streams import stream
+
+_SHIFT_KEY = 1 << 20  # keeps the shifts' streams apart from the sampler's
+_KEPT = 256  # realisations kept for the search for faults
+_KEPT_VALUES = 4_000_000
+
+
+@dataclass
+class Measurement:
+    """Moments gathered at one N, grown chunk by chunk.
+
+    Parameters
+    ----------
+    n : int
+    frequencies : tuple of frequencies
+    integrands : tuple of Integrand
+    """
+
+    n: int
+    frequencies: tuple[Frequency, ...]
+    integrands: tuple[Integrand, ...]
+    replicates: int = 0
+    seconds: float = 0.0
+    power: dict[Frequency, Moments] = field(default_factory=dict)
+    shifted: dict[str, Moments] = field(default_factory=dict)
+    raw: dict[str, Moments] = field(default_factory=dict)
+    kept: list[NDArray[np.float64]] = field(default_factory=list)
+    means: dict[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.power = {m: Moments() for m in self.frequencies}
+        self.shifted = {f.name: Moments() for f in self.integrands}
+        self.raw = {f.name: Moments() for f in self.integrands}
+        self.means = {f.name: float(f.mean(17)) for f in self.integrands}
+
+
+def grow(
+    measurement: Measurement, source: Source | CatalogueSource, seed: int, replicates: int
+) -> None:
+    """Measure until there are ``replicates`` realisations, or the source has no more.
+
+    Raises
+    ------
+    SamplerFault
+        If the sampler misbehaves; what was measured before stands.
+    """
+    if source.realisations is not None:
+        replicates = min(replicates, source.realisations[measurement.n])
+    while measurement.replicates < replicates:
+        start = measurement.replicates
+        chunk = range(start, min(start + CHUNK, replicates))
+        began = time.perf_counter()
+        points = source.realise(measurement.n, seed, chunk)
+        _absorb(measurement, points, seed, start)
+        measurement.replicates = chunk.stop
+        measurement.seconds += time.perf_counter() - began
+
+
+def _absorb(measurement: Measurement, points: NDArray[np.float64], seed: int, start: int) -> None:
+    held = sum(len(k) for k in measurement.kept)
+    if held < _KEPT and held * points[0].size < _KEPT_VALUES:
+        measurement.kept.append(points.copy())
+    for m, amplitude in zip(
+        measurement.frequencies, amplitudes(points, measurement.frequencies), strict=True
+    ):
+        measurement.power[m] = update(measurement.power[m], np.abs(amplitude))
+    if not measurement.integrands:
+        return
+    rng = stream(seed, _SHIFT_KEY, measurement.n, start)
+    moved = shifted(points, rng.random((len(points), points.shape[2])))
+    for f in measurement.integrands:
+        mean = measurement.means[f.name]
+        measurement.shifted[f.name] = update(
+            measurement.shifted[f.name], estimates(f, moved) - mean
+        )
+        measurement.raw[f.name] = update(measurement.raw[f.name], estimates(f, points) - mean)
+
+
+def power_interval(measurement: Measurement, m: Frequency, level: float) -> Interval:
+    """P_S(m) = E |F_S(m)|², with an interval as for a variance: |F|² is exponential-like."""
+    return variance_interval(measurement.power[m], level)
+
+
+def kept_points(measurement: Measurement) -> NDArray[np.float64]:
+    """The first realisations, on which faults are looked for; shape (R, N, d)."""
+    return np.concatenate(measurement.kept)
+
+
+def scaled(interval: Interval, factor: float) -> Interval:
+    """The interval times a positive factor."""
+    return Interval(*(factor * v for v in interval))
