@@ -1,0 +1,378 @@
+"""The document of a check: verdict, evidence and plan, as JSON-able values.
+
+``check`` is the door from Python; the command line renders the same document.
+"""
+
+import json
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from math import isfinite, log
+from pathlib import Path
+from typing import Any, cast
+
+from ..theory.claims import RateClaim, SamplerClaim
+from ..theory.decays import parse_decay, shell_exponent
+from ..theory.errors import InputError
+from ..theory.orders import Order, slowest
+from ..theory.rates import profile_of
+from ..theory.regions import region_of_support, select
+from ..theory.samplers import Sampler
+from .campaign import Interval, Moments, variance_interval
+from .checks import Judgement, State, judgements, matching, rate_points, run_check, seconds_needed
+from .integrands.bernoulli import Bernoulli
+from .integrands.protocol import Integrand
+from .measurements import Measurement
+from .probes import Support, integrand_supports, probed_supports, support_of_frequency
+from .slopes import fit_slope
+from .verdicts import FALSE_ALARM, MARGIN, Comparison, spectrum_predictions
+
+Document = dict[str, Any]
+
+_REPORTED = 0.05
+"""Level of the intervals that are only reported; decisions use far smaller ones."""
+
+
+def check(
+    sources: Sequence[str] | str,
+    dim: int,
+    claims: Sequence[str] = (),
+    integrands: Sequence[str] = (),
+    counts: Sequence[int] = (),
+    budget: float = 10.0,
+    seed: int = 0,
+    plan: str | Path | None = None,
+    progress: Callable[[str], None] = lambda text: None,
+) -> Document:
+    """Test a sampler design against theory.
+
+    Parameters
+    ----------
+    sources : str or sequence of str
+        ``module:callable``, ``path.py:callable``, a scipy QMC engine, a catalogue sampler, or
+        point files.
+    dim : int
+        Dimension of the points.
+    claims : sequence of str
+        Catalogue samplers, ``REGION/CLASS ~ EXPONENT [log Q]``, or JSON files with a list.
+    integrands : sequence of str
+        Integrands to measure besides the probes.
+    counts : sequence of int
+        N to measure at; empty: chosen from the claims and the source.
+    budget : float
+        Seconds at most.
+    seed : int
+        Of all random numbers.
+    plan : path, optional
+        A document of an earlier check (or its plan): what it executed is executed again.
+    progress : callable
+        Told in a line what is being done.
+
+    Returns
+    -------
+    dict
+        The document; its ``verdict`` is ``consistent``, ``contradicted``, ``inconclusive`` or
+        ``invalid``.
+
+    Raises
+    ------
+    InputError
+        If anything asked for is unusable.
+    """
+    words = [sources] if isinstance(sources, str) else list(sources)
+    if plan is None:
+        state = run_check(words, dim, claims, integrands, counts, budget, seed, None, progress)
+    else:
+        old = read_plan(Path(plan))
+        steps = [(s["n"], s["replicates"]) for s in old["ladder"]]
+        words = words or old["sources"]
+        state = run_check(
+            words, old["dim"], old["claims"], old["integrands"], (), budget, old["seed"], steps
+        )
+    return document(state)
+
+
+def read_plan(path: Path) -> Document:
+    """The plan in a document or plan file.
+
+    Raises
+    ------
+    InputError
+        If the file holds none, or one of another version.
+    """
+    rule = "a plan file must hold a check document or its plan"
+    try:
+        found: Any = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"a plan file must be readable: got {error.strerror} for {path}") from None
+    except ValueError as error:
+        raise InputError(f"{rule}: got {error} in {path}") from None
+    plan: Any = found.get("plan", found) if isinstance(found, dict) else None  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+    wanted = {"sources", "dim", "claims", "integrands", "seed", "ladder"}
+    if not isinstance(plan, dict) or not wanted <= set(cast("dict[str, Any]", plan)):
+        raise InputError(f"{rule}: got another document in {path}")
+    found_plan = cast(Document, plan)
+    if found_plan.get("specrate") != version("specrate"):
+        raise InputError(
+            f"a plan must come from this version, {version('specrate')}: "
+            f"got {found_plan.get('specrate')} in {path}"
+        )
+    return found_plan
+
+
+def document(state: State) -> Document:
+    """The JSON document of a check."""
+    asked, found = state.design, judgements(state)
+    measured = [m for m in state.measurements if m.replicates]
+    claimed = asked.claimed_samplers[0] if asked.claimed_samplers else None
+    return {
+        "verdict": verdict(state, found),
+        "faults": [
+            {"kind": f.kind, "detail": f.detail, "evidence": f.evidence} for f in state.faults
+        ],
+        "regions": [_region(s, measured, claimed, state.level) for s in _supports(state)],
+        "blocks": None,
+        "rates": [r for f in _integrands(state) for r in [_rate(state, f, claimed, found)] if r],
+        "points": [p for f in _integrands(state) for p in _points(state, f, measured, claimed)],
+        "claims": [_claim(j) for j in found],
+        "matches": [s.name for s, outcome in matching(state) if outcome == "holds"],
+        "left_out": _left_out(state),
+        "n_range": [measured[0].n, measured[-1].n] if measured else None,
+        "level": state.level,
+        "false_alarm": FALSE_ALARM,
+        "margin": MARGIN,
+        "budget_needed_seconds": seconds_needed(state, found),
+        "interrupted": state.interrupted,
+        "plan": _plan(state),
+        "seconds": state.seconds,
+    }
+
+
+def verdict(state: State, found: Sequence[Judgement]) -> str:
+    """The verdict: faults void the question; one failed claim contradicts."""
+    if state.faults:
+        return "invalid"
+    outcomes = [j.outcome for j in found]
+    if "fails" in outcomes:
+        return "contradicted"
+    enough = any(m.replicates >= 2 for m in state.measurements)
+    return "consistent" if enough and all(o == "holds" for o in outcomes) else "inconclusive"
+
+
+def _plan(state: State) -> Document:
+    asked = state.design
+    return {
+        "sources": list(asked.words),
+        "dim": asked.dim,
+        "claims": [c.text for c in asked.claims],
+        "integrands": [f.name for f in asked.integrands],
+        "seed": asked.seed,
+        "ladder": [{"n": m.n, "replicates": m.replicates} for m in state.measurements],
+        "frequencies": {str(m.n): [list(k) for k in m.frequencies] for m in state.measurements},
+        "specrate": version("specrate"),
+    }
+
+
+def _interval(found: Interval) -> Document | None:
+    if not isfinite(found.estimate):
+        return None
+    high = found.high if isfinite(found.high) else None
+    return {"estimate": found.estimate, "low": found.low, "high": high}
+
+
+def _named(support: Support) -> str:
+    return ",".join(str(i) for i in support)
+
+
+def _supports(state: State) -> tuple[Support, ...]:
+    measured = any(m.frequencies for m in state.measurements)
+    return probed_supports(state.design.dim) if measured else ()
+
+
+def _integrands(state: State) -> tuple[Integrand, ...]:
+    return state.measurements[0].integrands if state.measurements else ()
+
+
+def _region(
+    support: Support, measured: Sequence[Measurement], claimed: Sampler | None, level: float
+) -> Document:
+    """N·P_S on one support, with the claimed sampler's where there is one."""
+    rows: list[Document] = []
+    for m in measured:
+        wanted = [k for k in m.frequencies if support_of_frequency(k) == support]
+        exact = spectrum_predictions(claimed, m.n, wanted) if claimed and wanted else None
+        for k in wanted if m.replicates >= 2 else []:
+            measured_power = variance_interval(m.power[k], _REPORTED)
+            decided = variance_interval(m.power[k], level)
+            scaled = Interval(*(m.n * v for v in measured_power))
+            predicted = None if exact is None else m.n * exact[k]
+            outside = predicted is not None and not (
+                m.n * decided.low <= predicted + 1e-13 and predicted <= m.n * decided.high + 1e-13
+            )
+            rows.append(
+                {
+                    "n": m.n,
+                    "frequency": list(k),
+                    "scaled_power": _interval(scaled),
+                    "predicted": None if predicted is None else f"{predicted:.12g}",
+                    "agrees": None if predicted is None else not outside,
+                }
+            )
+    return {"region": _named(support), "profile": [], "outside_model": None, "spectrum": rows}
+
+
+def _rate(
+    state: State, integrand: Integrand, claimed: Sampler | None, found: Sequence[Judgement]
+) -> Document | None:
+    """Predicted and fitted exponent of one integrand; agreement is that of finite N."""
+    order = predicted_order(claimed, integrand) if claimed else None
+    points = rate_points(state, (integrand,), _REPORTED)
+    if not points:
+        return None
+    log_power = order.log_power if order is not None and order.log_power.is_Integer else 0
+    fit = fit_slope(points, int(log_power), _REPORTED) if len(points) >= 2 else None
+    outcomes = [c.outcome for j in found for c in j.found if c.at == integrand.name]
+    agrees = (
+        False if "fails" in outcomes else True if outcomes and set(outcomes) == {"holds"} else None
+    )
+    return {
+        "integrand": integrand.name,
+        "region": _named(integrand.axes) if isinstance(integrand, Bernoulli) else "overall",
+        "predicted": {
+            "exponent": None if order is None else str(order.exponent),
+            "log_power": None if order is None else str(order.log_power),
+        },
+        "measured": {
+            "slope": None if fit is None else _interval(fit.slope),
+            "local_slopes": [] if fit is None else [_interval(s) for s in fit.local_slopes],
+        },
+        "agrees": agrees,
+    }
+
+
+def predicted_order(sampler: Sampler, integrand: Integrand) -> Order:
+    """The order that theory gives an integrand under a catalogue sampler."""
+    decay, layout = parse_decay(integrand.name), sampler.layout
+    if isinstance(integrand, Bernoulli):
+        supports = [region_of_support(layout, integrand.axes)]
+    else:
+        supports = list(select(layout, "overall"))
+    orders: list[Order] = []
+    for region in supports:
+        q = shell_exponent(decay, layout, region)
+        if q is not None:
+            orders += [m.order_at(q) for m in profile_of(sampler, region)]
+    return slowest(orders)
+
+
+def _points(
+    state: State, integrand: Integrand, measured: Sequence[Measurement], claimed: Sampler | None
+) -> list[Document]:
+    exact_by_n: dict[int, str] = {}
+    if claimed is not None:
+        text = next(
+            t for t, _ in ((c.text, c) for c in state.design.claims if isinstance(c, SamplerClaim))
+        )
+        for n, values in state.variances.get(text, {}).items():
+            if integrand.name in values:
+                exact_by_n[n] = f"{float(values[integrand.name].value):.15g}"
+    found: list[Document] = []
+    for m in measured:
+        if m.replicates < 2:
+            continue
+        moved, raw = m.shifted[integrand.name], m.raw[integrand.name]
+        found.append(
+            {
+                "integrand": integrand.name,
+                "n": m.n,
+                "replicates": m.replicates,
+                "variance": _interval(variance_interval(moved, _REPORTED)),
+                "raw_variance": _interval(_spread(raw)),
+                "raw_mse": _interval(variance_interval(raw, _REPORTED)),
+                "bias": _interval(_bias(raw)),
+                "exact": exact_by_n.get(m.n),
+                "seconds": m.seconds,
+            }
+        )
+    return found
+
+
+def _spread(raw: Moments) -> Interval:
+    """Variance of the raw estimator about its own mean."""
+    centred = Moments(raw.count, 0.0, raw.m2, raw.m3, raw.m4)
+    return variance_interval(centred, _REPORTED)
+
+
+def _bias(raw: Moments) -> Interval:
+    """Bias of the raw estimator, ±1.96 standard errors."""
+    half = 1.959963984540054 * raw.bias_error
+    return Interval(raw.bias, raw.bias - half, raw.bias + half)
+
+
+def _claim(judgement: Judgement) -> Document:
+    holds = {"fails": False, "holds": True, "open": None}[judgement.outcome]
+    found: Document = {"claim": judgement.claim.text, "holds": holds, "witness": None}
+    if isinstance(judgement.claim, RateClaim):
+        drift = judgement.drift
+        found["exponents"] = None if drift is None else [drift.low, drift.high]
+        if holds is False and drift is not None:
+            found["witness"] = {
+                "what": "exponent",
+                "chi2": drift.chi2,
+                "threshold": drift.threshold,
+                "exponents": [drift.low, drift.high],
+            }
+        return found
+    failing = [c for c in judgement.found if c.outcome == "fails"]
+    if failing:
+        found["witness"] = _witness(min(failing, key=_simplicity))
+        found["failing"] = {"tests": len(failing), "of": len(judgement.found)}
+    return found
+
+
+def _simplicity(c: Comparison) -> tuple[int, int, int, int]:
+    """Spectra before variances, small supports, low frequencies, small N first."""
+    if isinstance(c.at, str):
+        return (1, 0, 0, c.n)
+    return (0, len(support_of_frequency(c.at)), sum(abs(k) for k in c.at), c.n)
+
+
+def _witness(c: Comparison) -> Document:
+    spectrum = not isinstance(c.at, str)
+    factor = c.n if spectrum else 1
+    gap = c.measured.estimate / c.predicted if c.predicted else float("inf")
+    return {
+        "what": "N P_S(m)" if spectrum else "variance",
+        "region": _named(support_of_frequency(c.at)) if not isinstance(c.at, str) else None,
+        "at": list(c.at) if spectrum else c.at,
+        "n": c.n,
+        "measured": _interval(Interval(*(factor * v for v in c.measured))),
+        "predicted": factor * c.predicted,
+        "ratio": gap if isfinite(gap) else None,
+        "decades": abs(log(gap)) / log(10) if gap > 0 and isfinite(gap) else None,
+    }
+
+
+def _left_out(state: State) -> list[Document]:
+    asked, found = state.design, list[Document]()
+    d = asked.dim
+
+    def leave(what: str, why: str) -> None:
+        found.append({"what": what, "why": why})
+
+    leave("fitted profile", "degree and effective count per region are not yet fitted to the data")
+    if d > 3 and _supports(state):
+        leave("supports of 3 coordinates and more", "axes, pairs and the full support are probed")
+        kept = ", ".join("{" + _named(s) + "}" for s in integrand_supports(d))
+        leave("variances on other supports", f"integrands probe {kept}; spectra probe the rest")
+    if asked.claims and not asked.claimed_samplers:
+        leave("spectrum and catalogue matches", "only exponents are claimed")
+    for m in state.measurements:
+        missing = [t for t, by_n in state.spectra.items() if m.n not in by_n]
+        for text in missing:
+            leave(
+                f"{text} at N = {m.n}",
+                "the claimed sampler has no realisations of that many points",
+            )
+        if m.replicates == 1:
+            leave(f"spectrum at N = {m.n}", "one realisation has one |F|²: no expectation")
+    return found
