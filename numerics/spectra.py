@@ -71,46 +71,52 @@ def scaled_power(sampler: Sampler, counts: Counts, m: Sequence[int]) -> Mpf:
 
     Notes
     -----
-    The plain sum cancels at low frequencies; the precision is raised until two evaluations at
-    precisions that differ by a half agree to the digits asked for.
+    The plain sum cancels at low frequencies. Beside it the sum of the absolute values is kept: it
+    times 10^-digits bounds the rounding, and the precision is raised until what is left of the
+    sum has the digits asked for. Two precisions that agree would not do: far below N^-1 both may
+    give the same wrong zero.
     """
     asked = mp.dps
     working = asked + 15
-    value, previous = mp.mpf(0), None
-    while working < 200 * asked:
+    while working < 400 * asked:
         with mp.workdps(working):
-            value = _plain_scaled_power(sampler, counts, m)
-        if previous is not None and abs(value - previous) <= abs(value) * mp.mpf(10) ** (1 - asked):
-            break
-        previous, working = value, working * 3 // 2 + 10
-    return +value  # a spectrum that is zero never settles
+            value, size = _sum_and_size(sampler, counts, m)
+            if size == 0 or abs(value) >= size * mp.mpf(10) ** (asked + 5 - working):
+                break
+        working *= 2
+    else:
+        value = mp.mpf(0)  # cancelled to all digits
+    return +value
 
 
-def _plain_scaled_power(sampler: Sampler, counts: Counts, m: Sequence[int]) -> Mpf:
+def _sum_and_size(sampler: Sampler, counts: Counts, m: Sequence[int]) -> tuple[Mpf, Mpf]:
+    """N·P_S(m), and the same sum with every product taken absolutely."""
     layout = sampler.layout
     support = [i + 1 for i, k in enumerate(m) if k]
-    total = mp.mpf(0)
+    total = size = mp.mpf(0)
     for term in sampler.kernel.restrict(support_counts(layout, support)):  # type: ignore[union-attr]
         value = element_value(term.coefficient, counts)
+        absolute = abs(value)
         for group, factor in term.factors:
             first = int(layout.groups[group].first)
             for i in support:
                 if first <= i < first + int(layout.groups[group].size):
-                    value *= _factor_value(factor, counts, m[i - 1])
-        total += value
-    return total
+                    at_m, size_at_m = _factor_value(factor, counts, m[i - 1])
+                    value, absolute = value * at_m, absolute * size_at_m
+        total, size = total + value, size + absolute
+    return total, size
 
 
-def _factor_value(factor: Factor, counts: Counts, m: int) -> Mpf:
-    total = mp.mpf(0)
+def _factor_value(factor: Factor, counts: Counts, m: int) -> tuple[Mpf, Mpf]:
+    total = size = mp.mpf(0)
     for coefficient, atom in factor.terms:
         if any(mp.mpf(m) % element_value(c, counts) != 0 for c in atom.combs):
             continue
         value = element_value(coefficient, counts)
         for count in atom.sincs:
             value *= mp.sincpi(m / element_value(count, counts)) ** 2
-        total += value
-    return total
+        total, size = total + value, size + abs(value)
+    return total, size
 
 
 def power_array(

@@ -84,11 +84,12 @@ class SeriesTerm:
 
 @dataclass(frozen=True)
 class Comb:
-    """Mean of a comb above its first alias: constant · N^height for |m| >= N^threshold."""
+    """Mean of a comb above its first alias: constant · N^height for |m| >= scale · N^threshold."""
 
     threshold: Expr
     height: Expr
     constant: Expr
+    scale: Expr = Integer(1)
 
 
 @dataclass(frozen=True)
@@ -288,14 +289,16 @@ def _combs(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[
         lead = _leading(_summed(iter(parts)), layout.growth, region.assumptions)
         if lead is None:
             continue
-        height, threshold = lead[0], Integer(0)
+        height, constant = lead
+        threshold, scale = Integer(0), Integer(1)
         for count, axes in combs:  # the comb meets one frequency in n on each of its axes
-            exponent, _ = leading_power(count, layout.growth, region.assumptions)
-            height -= axes * exponent
-            threshold = (
-                exponent if nonnegative(exponent - threshold, region.assumptions) else threshold
-            )
-        yield Comb(threshold, sympy.expand(height), lead[1])
+            exponent, factor = leading_power(count, layout.growth, region.assumptions)
+            height, constant = height - axes * exponent, constant / factor**axes
+            if exponent == threshold:
+                scale = sympy.Max(scale, factor)
+            elif nonnegative(exponent - threshold, region.assumptions):
+                threshold, scale = exponent, factor
+        yield Comb(threshold, sympy.expand(height), constant, scale)
 
 
 def _comb_terms(term: Term, counts: tuple[Expr, ...]) -> Iterator[tuple[_Bases, _Coefficient]]:

@@ -36,6 +36,8 @@ class SaturatingMonomial:
         g; 0 but for combs.
     plateau : sympy.Expr
         γ.
+    scale : sympy.Expr
+        α of a step, whose first alias is at α N^e; 1 otherwise.
     form : tuple
         The angular form behind the coefficient, as powers per group with their constants.
     """
@@ -45,6 +47,7 @@ class SaturatingMonomial:
     coefficient: Expr | None = None
     plateau_exponent: Expr = Integer(0)
     plateau: Expr = Integer(1)
+    scale: Expr = Integer(1)
     form: tuple[tuple[Powers, Expr], ...] = field(default=(), compare=False)
 
     @property
@@ -161,7 +164,9 @@ def _monomial(
 
 
 def _step(comb: Comb) -> SaturatingMonomial:
-    return SaturatingMonomial(sympy.oo, comb.threshold, None, comb.height, comb.constant)
+    return SaturatingMonomial(
+        sympy.oo, comb.threshold, None, comb.height, comb.constant, comb.scale
+    )
 
 
 def _is_covered(

@@ -1,0 +1,134 @@
+"""Crossovers: from which N on a slower region decides, for smooth product integrands.
+
+Where all power lies far below α N_k, a region's variance is C N^-a with C from the low-frequency
+form of the spectrum and the moments Σ_m M_λ(m²) |f^(m)|² on the region. A fast region with a large
+C leads until N* = (C_fast/C_slow)^(1/(a_fast − a_slow)): n-rooks on an anisotropic Gaussian fall as
+N^-3 up to N* and as N^-1 from there on.
+"""
+
+from dataclasses import dataclass
+from itertools import combinations
+from math import comb, prod
+
+from ..theory.expansions import FULL
+from ..theory.layouts import Layout
+from ..theory.orders import Order
+from ..theory.rates import profile_of
+from ..theory.regions import Region, regions
+from ..theory.samplers import Sampler
+from ..theory.symbolic import sympy
+from .integrands.gaussian import Gaussian
+from .integrands.protocol import Factor, Integrand, Mpf, mp
+
+_DIGITS = 30
+_SCALE = 10**20  # Σ m² |f^|² from Σ |f^|² (1 − sinc²(m/n)), relative error O(n^-2)
+_MOST_SUPPORTS = 5000
+
+
+@dataclass(frozen=True)
+class RegionConstant:
+    """V ~ constant · N^-exponent on a region, exact to about 1e-30 relative."""
+
+    region: str
+    constant: Mpf
+    order: Order
+
+
+@dataclass(frozen=True)
+class Crossover:
+    """Below N = ``count`` the fast region's term is the larger one, above it the slow one's."""
+
+    fast: RegionConstant
+    slow: RegionConstant
+    count: Mpf
+
+
+def region_constants(sampler: Sampler, integrand: Integrand) -> tuple[RegionConstant, ...]:
+    """Leading constant of a Gaussian's variance on every region; empty for other integrands.
+
+    The Gaussian is the catalogue's one integrand that is smooth and a product.
+    """
+    if not isinstance(integrand, Gaussian) or sampler.kernel is None:
+        return ()
+    factors, layout = integrand.factors, sampler.layout
+    found: list[RegionConstant] = []
+    for region in regions(layout):
+        picks = zip(layout.groups, region.counts, strict=True)
+        if prod(comb(int(g.size), int(c)) for g, c in picks) > _MOST_SUPPORTS:
+            return ()
+        for monomial in profile_of(sampler, region):
+            if monomial.degree is sympy.oo:
+                continue
+            with mp.workdps(3 * _DIGITS + 60):
+                value = mp.mpf(0)
+                for powers, constant in monomial.form:
+                    weight = mp.mpmathify(sympy.N(constant, mp.dps))
+                    value += weight * _moment(layout, region, powers.partitions, factors)
+            order = Order(1 + monomial.effective * monomial.degree)
+            found.append(RegionConstant(region.label, +value, order))
+    return tuple(found)
+
+
+def _moment(
+    layout: Layout,
+    region: Region,
+    partitions: tuple[tuple[int, ...], ...],
+    factors: tuple[Factor, ...],
+) -> Mpf:
+    """Σ over the region's supports of Σ_m M_λ(m²) ∏ |f^_i(m_i)|², the others at m = 0."""
+    total = mp.mpf(1)
+    for group, count, partition in zip(layout.groups, region.counts, partitions, strict=True):
+        first = int(group.first) - 1
+        members = factors[first : first + int(group.size)]
+        total *= _group_moment(members, int(count), partition)
+    return total
+
+
+def _group_moment(members: tuple[Factor, ...], count: int, partition: tuple[int, ...]) -> Mpf:
+    """One group's part: a choice of supports, and of the axes that carry the powers."""
+    powers = (1,) * count if partition == FULL else partition
+    assert set(powers) <= {1}, "the vertices of a profile have m_i² at most"
+    total = mp.mpf(0)
+    for support in combinations(range(len(members)), count):
+        for raised in combinations(support, len(powers)):
+            value = mp.mpf(1)
+            for i, f in enumerate(members):
+                if i in raised:
+                    value *= _second_moment(f)
+                else:
+                    value *= f.total() if i in support else f.mean() ** 2
+            total += value
+    return total
+
+
+def _second_moment(factor: Factor) -> Mpf:
+    """Σ_{m≠0} m² |f^(m)|², from the deficit of its sinc² sum, (π²/3) Σ m² |f^|² / n²."""
+    deficit = factor.total() - factor.sinc2_sum(_SCALE)
+    return deficit * 3 * mp.mpf(_SCALE) ** 2 / mp.pi**2
+
+
+def crossovers(sampler: Sampler, integrand: Integrand) -> tuple[Crossover, ...]:
+    """Where the leading region changes, in the order in which it happens.
+
+    Starting with the region whose term is the largest at N = 1, each later leader is the slower
+    region that overtakes first.
+    """
+    constants = [c for c in region_constants(sampler, integrand) if c.constant > 0]
+    if not constants:
+        return ()
+    leader = max(constants, key=lambda c: (c.constant, -float(c.order.exponent)))
+    found: list[Crossover] = []
+    while True:
+        meetings = [
+            Crossover(leader, c, (leader.constant / c.constant) ** (1 / _gap(leader, c)))
+            for c in constants
+            if _gap(leader, c) > 0
+        ]
+        if not meetings:
+            return tuple(found)
+        found.append(min(meetings, key=lambda x: x.count))
+        leader = found[-1].slow
+
+
+def _gap(fast: RegionConstant, slow: RegionConstant) -> Mpf:
+    return mp.mpmathify(sympy.N(fast.order.exponent - slow.order.exponent, 30))

@@ -1,0 +1,171 @@
+"""The command line: parse the words, call one room, print one document.
+
+Nothing heavy is imported until a command runs, so that ``--help`` is quick. Exit codes: 0 done,
+1 contradicted or invalid, 2 unusable input, 3 inconclusive, 130 interrupted.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+DONE, CONTRADICTED, UNUSABLE, INCONCLUSIVE, INTERRUPTED = 0, 1, 2, 3, 130
+
+FORMATS = ("terminal", "json", "latex", "markdown", "csv")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Errors in one line, the rule and then the value."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(UNUSABLE, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+    parsed = _parser().parse_args(arguments)
+    from ..theory.errors import InputError
+
+    try:
+        text, code = parsed.run(parsed)
+        _write(text, parsed.output)
+    except InputError as error:
+        print(f"specrate: {error}", file=sys.stderr)
+        return UNUSABLE
+    except KeyboardInterrupt:
+        print("specrate: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader, such as head, has closed
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    return code
+
+
+def _write(text: str, output: str | None) -> None:
+    if output is None:
+        print(text)
+        sys.stdout.flush()
+        return
+    from ..theory.errors import InputError
+
+    try:
+        Path(output).write_text(text + "\n", encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"--output must be writable: got {error.strerror} for {output}") from None
+
+
+def _parser() -> _Parser:
+    parser = _Parser(
+        prog="specrate",
+        description="How fast does the variance of a sampler fall? Derive it, then check it.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_table(commands)
+    _add_derive(commands)
+    _add_check(commands)
+    return parser
+
+
+class _Version(argparse.Action):
+    """Looks the version up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        print(version("specrate"))
+        parser.exit()
+
+
+Commands = "argparse._SubParsersAction[_Parser]"
+
+
+def _command(commands: Commands, name: str, run: Callable[..., object], about: str) -> _Parser:
+    parser = commands.add_parser(name, help=about, description=about)
+    parser.set_defaults(run=run)
+    parser.add_argument("--output", metavar="FILE", help="write there instead of to the terminal")
+    return parser
+
+
+def _add_format(parser: _Parser, formats: Sequence[str] = FORMATS) -> None:
+    parser.add_argument("--format", choices=formats, default="terminal")
+
+
+def _add_table(commands: Commands) -> None:
+    p = _command(commands, "table", _table, "convergence table, derived from exact spectra")
+    p.add_argument("--sampler", action="append", default=[], metavar="S", help="repeatable")
+    p.add_argument("--dim", action="append", default=[], metavar="D", help="a number or d")
+    p.add_argument(
+        "--integrand", action="append", default=[], metavar="CLASS", help="worst, best, p=5/2, disk"
+    )
+    p.add_argument("--primitive", default="point", help="point, line, segment or K-flat")
+    _add_format(p)
+
+
+def _add_derive(commands: Commands) -> None:
+    p = _command(commands, "derive", _derive, "how a rate comes about, with equation numbers")
+    p.add_argument("sampler", metavar="S")
+    p.add_argument("--dim", default="d", metavar="D")
+    p.add_argument("--integrand", default="worst", metavar="CLASS")
+    p.add_argument("--region", default="overall", metavar="R")
+    p.add_argument("--primitive", default="point")
+    _add_format(p, ("terminal", "json", "latex", "markdown"))
+
+
+def _add_check(commands: Commands) -> None:
+    p = _command(commands, "check", _check, "test a sampler design against theory")
+    p.add_argument("source", nargs="*", metavar="SOURCE", help="sampler, callable or point files")
+    p.add_argument("--dim", type=int, metavar="D")
+    p.add_argument("--claim", action="append", default=[], metavar="CLAIM", help="repeatable")
+    p.add_argument("--integrand", action="append", default=[], metavar="I", help="repeatable")
+    p.add_argument("--n", action="append", default=[], type=int, metavar="N", help="repeatable")
+    p.add_argument("--budget", type=float, default=10.0, metavar="SECONDS", help="a cap")
+    p.add_argument("--seed", type=int, default=0, metavar="S")
+    p.add_argument("--plan", metavar="FILE", help="replay what a document's check executed")
+    _add_format(p)
+
+
+def _table(a: argparse.Namespace) -> tuple[str, int]:
+    from .tables import render
+
+    text = render(
+        a.sampler, a.dim or ["d"], a.integrand or ["worst", "best"], a.primitive, a.format
+    )
+    return text, DONE
+
+
+def _derive(a: argparse.Namespace) -> tuple[str, int]:
+    from .derivations import render
+
+    return render(a.sampler, a.dim, a.integrand, a.region, a.primitive, a.format), DONE
+
+
+def _check(a: argparse.Namespace) -> tuple[str, int]:
+    from ..theory.errors import InputError
+
+    if a.plan is None and (not a.source or a.dim is None):
+        raise InputError("check needs a SOURCE and --dim (or --plan): got neither or one")
+    from ..numerics import check
+    from .checks import render
+
+    document = check(
+        a.source, a.dim or 1, a.claim, a.integrand, a.n, a.budget, a.seed, a.plan, _progress
+    )
+    verdicts = {"consistent": DONE, "contradicted": CONTRADICTED, "invalid": CONTRADICTED}
+    code = (
+        INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)
+    )
+    return render(document, a.format), code
+
+
+def _progress(text: str) -> None:
+    """A line of progress on stderr, replaced by the next one on a terminal."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r\x1b[K{text}")
+        sys.stderr.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

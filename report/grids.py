@@ -1,0 +1,59 @@
+"""Plain tables of text: aligned for the terminal, as Markdown, CSV or booktabs LaTeX."""
+
+import csv
+import io
+from collections.abc import Sequence
+
+
+def aligned(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Columns padded to one width, a rule below the head."""
+    widths = [max(len(r[i]) for r in (head, *rows)) for i in range(len(head))]
+
+    def line(cells: Sequence[str]) -> str:
+        return "  ".join(c.ljust(w) for c, w in zip(cells, widths, strict=True)).rstrip()
+
+    return "\n".join([line(head), "  ".join("-" * w for w in widths), *map(line, rows)])
+
+
+def markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table; vertical bars in cells are escaped."""
+
+    def line(cells: Sequence[str]) -> str:
+        return "| " + " | ".join(c.replace("|", r"\|") for c in cells) + " |"
+
+    return "\n".join([line(head), "|" + " --- |" * len(head), *map(line, rows)])
+
+
+def comma_separated(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """CSV with a head."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerows([head, *rows])
+    return out.getvalue().rstrip("\n")
+
+
+def booktabs(columns: str, head: Sequence[str], rows: Sequence[Sequence[str] | None]) -> str:
+    """A LaTeX tabular with booktabs rules; cells are LaTeX, None is a rule between rows."""
+    body = [r"\midrule" if r is None else " & ".join(r) + r" \\" for r in rows]
+    return "\n".join(
+        [
+            r"% needs \usepackage{booktabs} and \usepackage{amsmath}",
+            rf"\begin{{tabular}}{{{columns}}}",
+            r"\toprule",
+            " & ".join(head) + r" \\",
+            r"\midrule",
+            *body,
+            r"\bottomrule",
+            r"\end{tabular}",
+        ]
+    )
+
+
+def escaped(text: str) -> str:
+    """Text for LaTeX text mode."""
+    special = {"\\": r"\textbackslash{}", "<": r"\textless{}", ">": r"\textgreater{}"}
+    special |= {c: "\\" + c for c in "&%$#_{}"} | {
+        "^": r"\textasciicircum{}",
+        "~": r"\textasciitilde{}",
+    }
+    return "".join(special.get(c, c) for c in text)
