@@ -24,11 +24,12 @@ from .designs import (
     ladder,
     rate_probes,
 )
+from .drift import DriftTest, drift_test
 from .faults import BIAS_LEVEL, Fault, find_faults
 from .integrands.protocol import Integrand
 from .measurements import Measurement, grow, kept_points
 from .probes import Frequency
-from .slopes import DriftTest, RatePoint, drift_test
+from .slopes import RatePoint
 from .sources import SamplerFault
 from .variances import ExactVariance
 from .verdicts import (

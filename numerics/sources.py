@@ -9,31 +9,23 @@ Evidence counts realisations and rows from 0, as arrays do, and axes from 1, as 
 """
 
 import contextlib
-import hashlib
-import importlib
-import importlib.util
 import inspect
 import operator
-import os
-import sys
 import traceback
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Literal, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..theory.errors import InputError
+from .imports import RAISED, load_attribute, one_line
 from .pointfiles import POINT_SUFFIXES, read_points
 from .streams import stream
 
 Kind = Literal["callable", "engine", "file"]
-
-# A sampler that leaves by sys.exit(0) must not end the check with "nothing contradicted".
-_RAISED = (Exception, SystemExit)
 
 
 class SamplerFault(Exception):
@@ -237,7 +229,7 @@ def load_source(words: list[str], dim: int) -> Source:
 
 def _sampler_source(word: str, dim: int) -> CallableSource | EngineSource:
     """Source of one Python object, told apart by its type."""
-    target = _load_attribute(word)
+    target = load_attribute(word)
     if isinstance(target, type) and _derives_from_scipy(target, "QMCEngine"):
         if inspect.isabstract(target):
             raise InputError(f"a QMC engine class must not be abstract: got '{word}'")
@@ -275,87 +267,6 @@ def _load_files(words: list[str], dim: int) -> FileSource:
     return FileSource(" ".join(words), {n: np.concatenate(parts[n]) for n in parts}, dim)
 
 
-def _load_attribute(word: str) -> object:
-    """What ``module:name`` or ``path.py:name`` stands for; the name may be dotted."""
-    place, colon, name = word.removeprefix("py:").rpartition(":")
-    is_path = place.endswith(".py")
-    named = all(part.isidentifier() for part in name.split("."))
-    if not colon or not named or not (is_path or _is_module_name(place)):
-        raise InputError(
-            "a source must be a sampler of the catalogue, module:callable, path.py:callable or "
-            f"point files ({', '.join(POINT_SUFFIXES)}): got '{word}'"
-        )
-    target: object = _import_path(Path(place), word) if is_path else _import_module(place, word)
-    for part in name.split("."):
-        try:
-            target = getattr(target, part)
-        except AttributeError as error:
-            raise InputError(f"a source must name an attribute of {place}: got '{name}'") from error
-        except _RAISED as error:  # a module may import lazily
-            raise _import_fault(error, word) from error
-    return target
-
-
-def _is_module_name(name: str) -> bool:
-    return all(part.isidentifier() for part in name.split("."))
-
-
-def _import_module(name: str, word: str) -> ModuleType:
-    """Import a module; the current directory counts, as for ``python -m``."""
-    try:
-        with _importable(Path.cwd()):
-            return importlib.import_module(name)
-    except ModuleNotFoundError as error:
-        if error.name and (name + ".").startswith(error.name + "."):
-            raise InputError(
-                f"a source must name a module: got no module '{error.name}' for '{word}'"
-            ) from error
-        raise _import_fault(error, word) from error
-    except _RAISED as error:
-        raise _import_fault(error, word) from error
-
-
-def _import_path(path: Path, word: str) -> ModuleType:
-    """Import a file under a name of its own, so that random.py does not hide the library's."""
-    if not path.is_file():
-        raise InputError(f"a source must name a Python file: got no file '{path}' for '{word}'")
-    path = path.resolve()
-    digest = hashlib.blake2b(os.fsencode(path), digest_size=6).hexdigest()
-    name = f"specrate_source_{path.stem}_{digest}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise InputError(f"a source must be a file that Python can import: got '{path}'")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # dataclasses and pickle look their module up while it runs
-    try:
-        with _importable(path.parent):
-            spec.loader.exec_module(module)
-    except _RAISED as error:
-        del sys.modules[name]
-        raise _import_fault(error, word) from error
-    return module
-
-
-@contextlib.contextmanager
-def _importable(folder: Path) -> Generator[None]:
-    """Put a folder in front of sys.path for the time of an import."""
-    importlib.invalidate_caches()  # the sampler may have been written a moment ago
-    sys.path.insert(0, str(folder))
-    try:
-        yield
-    finally:
-        with contextlib.suppress(ValueError):  # the module may have rearranged sys.path itself
-            sys.path.remove(str(folder))
-
-
-def _import_fault(error: BaseException, word: str) -> InputError:
-    return InputError(f"a source must import without error: got {_one_line(error)} for '{word}'")
-
-
-def _one_line(error: BaseException) -> str:
-    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
-
-
 def _derives_from_scipy(target: type[Any], name: str) -> bool:
     # By name: whoever uses an engine has imported scipy.stats already, nobody else should pay.
     return any(
@@ -382,10 +293,10 @@ def _sampler_call(name: str, n: int, replicate: int | None = None) -> Generator[
     """Turn what the sampler raises into a fault with the place where it was raised."""
     try:
         yield
-    except _RAISED as error:
+    except RAISED as error:
         frames = traceback.extract_tb(error.__traceback__)
         place = f"{frames[-1].filename}:{frames[-1].lineno}"
-        detail = f"{name} must not raise for n = {n}: got {_one_line(error)} at {place}"
+        detail = f"{name} must not raise for n = {n}: got {one_line(error)} at {place}"
         evidence = {
             "type": type(error).__name__,
             "message": " ".join(str(error).split()),

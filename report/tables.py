@@ -21,7 +21,7 @@ def render(
     form: str,
 ) -> str:
     """The table in one of the formats of the command line."""
-    found = table(samplers, dims, integrands, primitive)
+    found = table(samplers, dims, integrands, primitive, constants=form in ("json", "csv"))
     meetings = _crossovers(found, integrands, dims) if primitive == "point" else []
     if form == "json":
         whole = document(found)
@@ -29,12 +29,14 @@ def render(
         return json.dumps(whole, indent=1)
     if form == "latex":
         return _latex(found)
-    rows = [_cells(r) for r in _merged(found.rows)]
     if form == "csv":
         return _csv(found)
+    rows = [_cells(r) for r in _merged(found.rows)]
     if form == "markdown":
         return markdown(_HEAD[:5], [r[:5] for r in rows])
-    return "\n".join([aligned(_HEAD, rows), *_notes(found), *_meeting_lines(meetings)])
+    return "\n".join(
+        [aligned(_HEAD, list(_without_repeats(rows))), *_notes(found), *_meeting_lines(meetings)]
+    )
 
 
 def _csv(found: Table) -> str:
@@ -113,6 +115,15 @@ def _cells(row: Row) -> tuple[str, ...]:
         order += f"  for {row.condition}"
     mark = "<- decides" if row.is_overall else "dominated" if row.dominated else ""
     return row.sampler, row.dim, row.integrand, row.region, order, mark
+
+
+def _without_repeats(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, ...]]:
+    """Sampler, d and class once per group: the eye finds the groups by the gaps."""
+    before: tuple[str, ...] = ()
+    for row in rows:
+        same = row[:3] == before
+        before = row[:3]
+        yield (("", "", "") if same else row[:3]) + row[3:]
 
 
 def _notes(found: Table) -> Iterator[str]:

@@ -140,8 +140,9 @@ def test_random_is_white(dim):
 
 @given(frequencies(4, largest=9))
 def test_blocks_of_one_axis_are_a_latin_hypercube(m):
-    blocks, whole = parse_sampler("uncorrelated-jitter:1+1+1+1", 4), parse_sampler(
-        "latin-hypercube", 4
+    blocks, whole = (
+        parse_sampler("uncorrelated-jitter:1+1+1+1", 4),
+        parse_sampler("latin-hypercube", 4),
     )
     counts = {"N": 6} | {f"n{i}_1": 6 for i in range(1, 5)}
     assert float(scaled_power(blocks, counts, m)) == pytest.approx(
@@ -172,9 +173,7 @@ def test_spectra_are_one_far_away(case):
     """No spectrum but that of a grid has a tooth that does not fade."""
     name, dim, counts, _ = CASES[case]
     far = (10**9 + 7,) * dim
-    assert float(scaled_power(parse_sampler(name, dim), counts, far)) == pytest.approx(
-        1, abs=1e-9
-    )
+    assert float(scaled_power(parse_sampler(name, dim), counts, far)) == pytest.approx(1, abs=1e-9)
 
 
 A = Alphabet(("N", "n"))

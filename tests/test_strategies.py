@@ -8,8 +8,8 @@ from specrate.theory.strata import parse_strata
 from specrate.theory.symbolic import Integer
 from strategies import (
     LARGEST_DIM,
-    block_sizes,
     block_samplers,
+    block_sizes,
     catalogue_names,
     dims,
     frequencies,

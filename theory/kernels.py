@@ -141,20 +141,26 @@ class Kernel:
         Axes outside the support have their factor's value at 0, which must be 1 wherever the
         group is not wholly inside the support; axes inside have lost their [m = 0] atoms.
         """
-        if self.term is not None:
-            return _restricted(self.term, counts)
-        if self.kind == "sum":
-            return _collected([t for p in self.parts for t in p.restrict(counts)])
-        terms: tuple[Term, ...] = self.parts[0].restrict(counts)
-        for part in self.parts[1:]:
-            terms = _collected([a * b for a in terms for b in part.restrict(counts)])
-        return terms
+        return _restricted(self, tuple(bool(c != 0) for c in counts))
 
 
-def _restricted(term: Term, counts: tuple[Expr | int, ...]) -> tuple[Term, ...]:
+@lru_cache(maxsize=4096)
+def _restricted(kernel: Kernel, touched: tuple[bool, ...]) -> tuple[Term, ...]:
+    """Only which groups a support touches matters, so that many regions share one answer."""
+    if kernel.term is not None:
+        return _restricted_term(kernel.term, touched)
+    if kernel.kind == "sum":
+        return _collected([t for p in kernel.parts for t in _restricted(p, touched)])
+    terms = _restricted(kernel.parts[0], touched)
+    for part in kernel.parts[1:]:
+        terms = _collected([a * b for a in terms for b in _restricted(part, touched)])
+    return terms
+
+
+def _restricted_term(term: Term, touched: tuple[bool, ...]) -> tuple[Term, ...]:
     kept: list[tuple[int, Factor]] = []
     for group, factor in term.factors:
-        if counts[group] == 0:
+        if not touched[group]:
             continue
         inside = factor.off_zero()
         if not inside.terms:

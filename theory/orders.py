@@ -70,7 +70,10 @@ class Order:
 def _partial_fractions(exponent: Expr) -> Expr:
     """One form for one exponent: d/(d − 1) + 1/(d − 1) becomes 1 + 2/(d − 1)."""
     expanded = sympy.expand(exponent)
-    if expanded.is_number or not expanded.is_rational_function():
+    symbolic = [t for t in sympy.Add.make_args(expanded) if not t.is_number]
+    if not symbolic or (len(symbolic) == 1 and symbolic[0].as_numer_denom()[0].is_number):
+        return expanded
+    if not expanded.is_rational_function():
         return expanded
     quotient = sympy.together(expanded)
     free = sympy.fraction(quotient)[1].free_symbols
@@ -96,7 +99,8 @@ def _power_text(exponent: Expr) -> str:
 
 
 def _latex_negated(exponent: Expr) -> str:
-    parts = [sympy.latex(t).replace("- ", "-") for t in _negated_terms(exponent)]
+    parts = [sympy.latex(t) for t in _negated_terms(exponent)]
+    parts = ["-" + p[2:] if p.startswith("- ") else p for p in parts]
     return "".join(p if i == 0 or p.startswith("-") else f"+{p}" for i, p in enumerate(parts))
 
 

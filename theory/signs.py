@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from .symbolic import Expr, Integer, Symbol, sympy
+from .symbolic import Expr, FracElement, FracField, Integer, Symbol, sympy
 
 Sign = Literal["-", "<=0", "0", ">=0", "+"] | None
 """A proved sign: negative, not positive, zero, not negative, positive; None is undecided."""
@@ -125,9 +125,18 @@ def _shifted(expression: Expr, assumptions: Assumptions) -> Expr | None:
     return expression
 
 
+@lru_cache(maxsize=256)
+def _functions(symbols: tuple[Symbol, ...]) -> FracField:
+    """The rational functions of some symbols, in which signs of coefficients are read off."""
+    return sympy.polys.fields.field(symbols, sympy.QQ)[0]
+
+
 def _sign_of_quotient(expression: Expr) -> Sign:
-    numerator, denominator = sympy.fraction(sympy.together(expression))
-    over, under = _sign_of_polynomial(numerator), _sign_of_polynomial(denominator)
+    if expression.is_number:
+        return _sign_of_number(expression)
+    symbols = tuple(sorted(expression.free_symbols, key=str))
+    element = _functions(symbols).from_expr(expression)
+    over, under = (_sign_of_polynomial(p) for p in (element.numer, element.denom))
     if over is None or under not in ("+", "-"):
         return None
     return over if under == "+" else _OPPOSITE[over]
@@ -136,17 +145,16 @@ def _sign_of_quotient(expression: Expr) -> Sign:
 _OPPOSITE: dict[Sign, Sign] = {"+": "-", "-": "+", ">=0": "<=0", "<=0": ">=0", "0": "0"}
 
 
-def _sign_of_polynomial(expression: Expr) -> Sign:
+def _sign_of_polynomial(polynomial: FracElement) -> Sign:
     """Sign for all t >= 0, from the signs of the coefficients."""
-    if expression.is_number:
-        return _sign_of_number(expression)
-    polynomial = sympy.Poly(expression, *sorted(expression.free_symbols, key=str))
-    coefficients = polynomial.coeffs()
-    constant = polynomial.nth(*[0] * len(polynomial.gens))
-    if all(c.is_positive for c in coefficients):
-        return "+" if constant != 0 else ">=0"
-    if all(c.is_negative for c in coefficients):
-        return "-" if constant != 0 else "<=0"
+    coefficients = dict(polynomial.terms())
+    if not coefficients:
+        return "0"
+    constant = any(not any(powers) for powers in coefficients)
+    if all(c > 0 for c in coefficients.values()):
+        return "+" if constant else ">=0"
+    if all(c < 0 for c in coefficients.values()):
+        return "-" if constant else "<=0"
     return None
 
 

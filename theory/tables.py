@@ -75,6 +75,7 @@ def table(
     dims: Sequence[str | int] = ("d",),
     integrands: Sequence[str] = ("worst", "best"),
     primitive: str = "point",
+    constants: bool = True,
 ) -> Table:
     """Convergence table of samplers × dimensions × integrand classes.
 
@@ -88,6 +89,8 @@ def table(
         Grammar of classes.
     primitive : str
         ``point``, ``line``, ``segment`` or ``K-flat``.
+    constants : bool
+        Whether the leading constants are wanted, which take as long as the rest.
 
     Returns
     -------
@@ -110,7 +113,7 @@ def table(
             sampler = parse_sampler(name, size)
             for decay in classes:
                 rates = region_rates(sampler, decay, kind)
-                rows += _rows(sampler, str(dim), kind, decay, rates)
+                rows += _rows(sampler, str(dim), kind, decay, rates, constants)
                 left_out += _left_out(sampler, decay, rates)
     return Table(tuple(rows), tuple(left_out))
 
@@ -125,7 +128,12 @@ def parse_dim(text: str | int) -> Expr:
 
 
 def _rows(
-    sampler: Sampler, dim: str, kind: Primitive, decay: Decay, rates: tuple[RegionRate, ...]
+    sampler: Sampler,
+    dim: str,
+    kind: Primitive,
+    decay: Decay,
+    rates: tuple[RegionRate, ...],
+    constants: bool,
 ) -> Iterator[Row]:
     cases = overall(rates, sampler.layout.assumptions)
     head = (sampler.name, dim, kind.name, decay.name)
@@ -139,7 +147,7 @@ def _rows(
             len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
         )
         dominated = not is_top and len(cases) == 1 and _is_dominated(rate, top, rates)
-        found = leading_constant(rate, decay)
+        found = leading_constant(rate, decay) if constants else None
         constant = found.constant if found else None
         yield Row(*head, region, order, constant, False, dominated)
     for case in cases:
