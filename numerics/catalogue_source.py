@@ -1,5 +1,6 @@
 """A catalogue sampler as a source of realisations."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,27 @@ from .sources import Source, load_source
 from .streams import stream
 
 CHUNK = 64
-"""Realisations drawn from one stream: replicates are asked for in whole chunks."""
+"""Realisations drawn from one stream, unless N is very large."""
+
+_CHUNK_POINTS = 1 << 22
+
+
+def chunk_size(n: int) -> int:
+    """Realisations of N points that are drawn and measured together, from one stream."""
+    return max(1, min(CHUNK, _CHUNK_POINTS // n))
+
+
+def counts_of(sampler: Sampler, n: int) -> Mapping[str, int]:
+    """Counts of a sampler that has points, at the admissible N nearest to n.
+
+    Raises
+    ------
+    InputError
+        If it has none.
+    """
+    if sampler.counts_at is None:
+        raise InputError(f"a catalogue source must have points to draw: got {sampler.name!r}")
+    return sampler.counts_at(n)
 
 
 @dataclass(frozen=True)
@@ -36,13 +57,14 @@ class CatalogueSource:
 
     def admissible(self, n: int) -> int:
         """The admissible N nearest to n."""
-        return self.sampler.counts_at(n)["N"]  # type: ignore[misc]
+        return counts_of(self.sampler, n)["N"]
 
     def realise(self, n: int, seed: int, replicates: range) -> NDArray[np.float64]:
         """Realisations of shape (len(replicates), n, d); the range starts a chunk."""
-        if replicates.start % CHUNK or len(replicates) > CHUNK:
-            raise InputError(f"replicates must come in chunks of {CHUNK}: got {replicates}")
-        counts = self.sampler.counts_at(n)  # type: ignore[misc]
+        size = chunk_size(n)
+        if replicates.start % size or len(replicates) > size:
+            raise InputError(f"replicates must come in chunks of {size}: got {replicates}")
+        counts = counts_of(self.sampler, n)
         rng = stream(seed, n, replicates.start)
         return generate(self.sampler, counts, len(replicates), rng)
 

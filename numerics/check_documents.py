@@ -24,7 +24,7 @@ from .integrands.protocol import Integrand
 from .measurements import Measurement
 from .probes import Support, integrand_supports, probed_supports, support_of_frequency
 from .slopes import fit_slope
-from .verdicts import FALSE_ALARM, MARGIN, Comparison, spectrum_predictions
+from .verdicts import FALSE_ALARM, MARGIN, Comparison, Outcome, spectrum_predictions
 
 Document = dict[str, Any]
 
@@ -83,7 +83,7 @@ def check(
         state = run_check(words, dim, claims, integrands, counts, budget, seed, None, progress)
     else:
         old = read_plan(Path(plan))
-        steps = [(s["n"], s["replicates"]) for s in old["ladder"]]
+        steps = [(s["n"], s["replicates"], s["attempted"]) for s in old["ladder"]]
         words = words or old["sources"]
         state = run_check(
             words, old["dim"], old["claims"], old["integrands"], (), budget, old["seed"], steps
@@ -121,11 +121,11 @@ def read_plan(path: Path) -> Document:
 
 def document(state: State) -> Document:
     """The JSON document of a check."""
-    asked, found = state.design, judgements(state)
+    asked, found, matched = state.design, judgements(state), matching(state)
     measured = [m for m in state.measurements if m.replicates]
     claimed = asked.claimed_samplers[0] if asked.claimed_samplers else None
     return {
-        "verdict": verdict(state, found),
+        "verdict": verdict(state, found, matched),
         "faults": [
             {"kind": f.kind, "detail": f.detail, "evidence": f.evidence} for f in state.faults
         ],
@@ -134,7 +134,7 @@ def document(state: State) -> Document:
         "rates": [r for f in _integrands(state) for r in [_rate(state, f, claimed, found)] if r],
         "points": [p for f in _integrands(state) for p in _points(state, f, measured, claimed)],
         "claims": [_claim(j) for j in found],
-        "matches": [s.name for s, outcome in matching(state) if outcome == "holds"],
+        "matches": [s.name for s, outcome in matched if outcome == "holds"],
         "left_out": _left_out(state),
         "n_range": [measured[0].n, measured[-1].n] if measured else None,
         "level": state.level,
@@ -147,11 +147,19 @@ def document(state: State) -> Document:
     }
 
 
-def verdict(state: State, found: Sequence[Judgement]) -> str:
-    """The verdict: faults void the question; one failed claim contradicts."""
+def verdict(
+    state: State, found: Sequence[Judgement], matched: Sequence[tuple[Sampler, Outcome]]
+) -> str:
+    """The verdict: faults void the question; one failed claim contradicts.
+
+    Without claims nothing can be contradicted; it is consistent with what it matches once every
+    catalogue sampler is decided.
+    """
     if state.faults:
         return "invalid"
     outcomes = [j.outcome for j in found]
+    if not state.design.claims:
+        return "consistent" if matched and all(o != "open" for _, o in matched) else "inconclusive"
     if "fails" in outcomes:
         return "contradicted"
     enough = any(m.replicates >= 2 for m in state.measurements)
@@ -166,7 +174,10 @@ def _plan(state: State) -> Document:
         "claims": [c.text for c in asked.claims],
         "integrands": [f.name for f in asked.integrands],
         "seed": asked.seed,
-        "ladder": [{"n": m.n, "replicates": m.replicates} for m in state.measurements],
+        "ladder": [
+            {"n": m.n, "replicates": m.replicates, "attempted": m.attempted}
+            for m in state.measurements
+        ],
         "frequencies": {str(m.n): [list(k) for k in m.frequencies] for m in state.measurements},
         "specrate": version("specrate"),
     }

@@ -8,6 +8,7 @@ executed is written down as a plan, which replays to the same document.
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import log
 
 from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.errors import InputError
@@ -29,8 +30,9 @@ from .faults import BIAS_LEVEL, Fault, find_faults
 from .integrands.protocol import Integrand
 from .measurements import Measurement, grow, kept_points
 from .probes import Frequency
-from .slopes import RatePoint
+from .slopes import RatePoint, special
 from .sources import SamplerFault
+from .tails import is_resolved, is_seen
 from .variances import ExactVariance
 from .verdicts import (
     EXPONENT_MARGIN,
@@ -46,9 +48,12 @@ from .verdicts import (
 )
 
 _FIRST, _MOST = 128, 1 << 14  # replicates in the first round, and at most
-_FAULT_SHARE = 5  # ladder steps for which the faults' own level is counted
+_NOISE = 1e-27  # relative mean squared error that is but rounding
+_FAULT_SHARE = 0.5  # of the false alarms, allowed to the search for faults
 
 Spectrum = dict[Frequency, float]
+Variances = dict[str, ExactVariance]
+Step = tuple[int, int, int]
 
 
 @dataclass
@@ -71,10 +76,12 @@ class State:
     design: Design
     level: float
     measurements: list[Measurement]
-    spectra: dict[str, dict[int, Spectrum]] = field(default_factory=dict)
-    variances: dict[str, dict[int, dict[str, ExactVariance]]] = field(default_factory=dict)
-    faults: list[Fault] = field(default_factory=list)
-    judged: dict[int, int] = field(default_factory=dict)
+    spectra: dict[str, dict[int, Spectrum]] = field(default_factory=dict[str, dict[int, Spectrum]])
+    variances: dict[str, dict[int, Variances]] = field(
+        default_factory=dict[str, dict[int, Variances]]
+    )
+    faults: list[Fault] = field(default_factory=list[Fault])
+    judged: set[int] = field(default_factory=set[int])
     seconds: float = 0.0
     interrupted: bool = False
 
@@ -107,7 +114,7 @@ def run_check(
     counts: Sequence[int] = (),
     budget: float = 10.0,
     seed: int = 0,
-    steps: Sequence[tuple[int, int]] | None = None,
+    steps: Sequence[Step] | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> State:
     """Measure until every claim is decided, the budget is spent or the steps are executed.
@@ -124,7 +131,7 @@ def run_check(
     budget : float
         Seconds, a cap.
     seed : int
-    steps : sequence of (n, replicates), optional
+    steps : sequence of (n, replicates, attempted), optional
         Exactly these are executed, whatever the budget: the replay of a plan.
     progress : callable
         Told in a line what is being done.
@@ -140,16 +147,18 @@ def run_check(
     asked = design(words, dim, claims, integrands, seed)
     state = State(asked, FALSE_ALARM, [])
     try:
-        _prepare(state, [n for n, _ in steps] if steps else counts)
+        _prepare(state, [n for n, *_ in steps] if steps else counts)
         if steps:
-            _replay(state, dict(steps))
+            _replay(state, {n: reached for n, *reached in steps})
         else:
             _measure(state, began + budget, progress)
     except SamplerFault as fault:
         told = fault_of_count(asked.source, fault)
-        state.faults.append(Fault(told.kind, told.detail, told.evidence))
+        state.faults.insert(0, Fault(told.kind, told.detail, told.evidence))
     except KeyboardInterrupt:
         state.interrupted = True
+        for m in state.measurements:
+            m.attempted = m.replicates
     for m in state.measurements:
         _look_for_faults(state, m)
     state.seconds = time.perf_counter() - began
@@ -175,15 +184,23 @@ def _prepare(state: State, counts: Sequence[int]) -> None:
                     tests += len(spectrum) + len(exact)
         else:
             tests += 1
-    faults = BIAS_LEVEL * max(_FAULT_SHARE, len(state.measurements))
-    state.level = (FALSE_ALARM - faults) / (max(tests, 1) * LOOKS)
+    if not asked.claims:  # the true sampler must stay among the matches
+        tests = sum(len(m.frequencies) for m in state.measurements)
+    state.level = (1 - _FAULT_SHARE) * FALSE_ALARM / (max(tests, 1) * LOOKS)
 
 
-def _replay(state: State, steps: Mapping[int, int]) -> None:
-    for m in state.measurements:
-        if m.n not in steps:
-            raise InputError(f"a plan must list N that the source honours: got {sorted(steps)}")
-        grow(m, state.design.source, state.design.seed, steps[m.n])
+def _bias_level(state: State) -> float:
+    """Of one search for faults: there is one at each N."""
+    return min(BIAS_LEVEL, _FAULT_SHARE * FALSE_ALARM / len(state.measurements))
+
+
+def _replay(state: State, steps: Mapping[int, Sequence[int]]) -> None:
+    """What was measured, then what failed: a fault must find all the rest in place."""
+    for stage in (0, 1):
+        for m in state.measurements:
+            if m.n not in steps:
+                raise InputError(f"a plan must list N that the source honours: got {sorted(steps)}")
+            grow(m, state.design.source, state.design.seed, steps[m.n][stage])
 
 
 def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> None:
@@ -192,15 +209,17 @@ def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> 
     while target <= _MOST:
         for m in state.measurements:
             while m.replicates < _reachable(state, m, target):
-                grow(m, state.design.source, state.design.seed, m.replicates + CHUNK)
+                wanted = m.replicates + CHUNK
+                grow(m, state.design.source, state.design.seed, wanted, deadline)
                 if time.perf_counter() > deadline:
                     return
             _look_for_faults(state, m)
         if state.faults:
             return
-        outcomes = [j.outcome for j in judgements(state)]
+        outcomes = [judgement.outcome for judgement in judgements(state)]
         progress(f"{target} realisations at N = {', '.join(str(m.n) for m in state.measurements)}")
-        if _is_decided(state, outcomes):
+        exhausted = all(_reachable(state, m, _MOST) == m.replicates for m in state.measurements)
+        if exhausted or _is_decided(state, outcomes):
             return
         target *= 2
 
@@ -210,7 +229,7 @@ def _reachable(state: State, m: Measurement, target: int) -> int:
     return target if held is None else min(target, held[m.n])
 
 
-def _is_decided(state: State, outcomes: list[Outcome]) -> bool:
+def _is_decided(state: State, outcomes: Sequence[Outcome]) -> bool:
     """All claims decided, or one contradicted; without claims, every candidate decided."""
     if not state.design.claims:
         return all(outcome != "open" for _, outcome in matching(state))
@@ -218,17 +237,13 @@ def _is_decided(state: State, outcomes: list[Outcome]) -> bool:
 
 
 def _look_for_faults(state: State, m: Measurement) -> None:
-    """Judge the raw points kept, unless these were judged before."""
-    if not m.kept:
+    """Judge the raw points kept, once for each N."""
+    if not m.kept or m.n in state.judged:
         return
-    points = kept_points(m)
-    if state.judged.get(m.n) == len(points):
-        return
-    fresh = m.n not in state.judged
-    state.judged[m.n] = len(points)
-    if fresh or len(points) <= _FIRST:
-        known = {(f.kind, f.detail) for f in state.faults}
-        state.faults += [f for f in find_faults(points) if (f.kind, f.detail) not in known]
+    state.judged.add(m.n)
+    known = {(f.kind, f.detail) for f in state.faults}
+    found = find_faults(kept_points(m), level=_bias_level(state))
+    state.faults += [f for f in found if (f.kind, f.detail) not in known]
 
 
 def judgements(state: State) -> list[Judgement]:
@@ -250,7 +265,7 @@ def _sampler_judgement(state: State, claim: SamplerClaim) -> Judgement:
 
 def _rate_judgement(state: State, claim: RateClaim) -> Judgement:
     """The exponent, tested on the whole ladder with its drift allowance."""
-    points = rate_points(state, rate_probes(claim, state.design.dim), state.level)
+    points = rate_points(state, rate_probes(claim, state.design.dim), state.level, asymptotic=True)
     if len(points) < 3:
         return Judgement(claim, "open")
     drift = drift_test(
@@ -264,15 +279,23 @@ def _rate_judgement(state: State, claim: RateClaim) -> Judgement:
     return Judgement(claim, outcomes.get(drift.verdict, "open"), drift=drift)
 
 
-def rate_points(state: State, integrands: Sequence[Integrand], level: float) -> list[RatePoint]:
+def rate_points(
+    state: State, integrands: Sequence[Integrand], level: float, asymptotic: bool = False
+) -> list[RatePoint]:
     """Summed variances of integrands on different supports, per N, with cautious errors.
 
     A random shift makes the errors on different supports uncorrelated, so that their variances
     add; their intervals are added end by end.
+
+    Parameters
+    ----------
+    asymptotic : bool
+        Leave out what says nothing on N → ∞: too few points to meet or to resolve a narrow
+        integrand, and variances that are rounding errors.
     """
     found: list[RatePoint] = []
     for m in state.measurements:
-        if m.replicates < _FIRST:
+        if m.replicates < _FIRST or (asymptotic and not _is_telling(m, integrands)):
             continue
         parts = [variance_interval(m.shifted[f.name], level) for f in integrands]
         total = Interval(*(sum(p[i] for p in parts) for i in range(3)))
@@ -281,14 +304,19 @@ def rate_points(state: State, integrands: Sequence[Integrand], level: float) -> 
     return found
 
 
+def _is_telling(m: Measurement, integrands: Sequence[Integrand]) -> bool:
+    return all(
+        is_resolved(f, m.n)
+        and is_seen(f, m.n, m.replicates)
+        and m.shifted[f.name].mse > _NOISE * (float(f.total(17)) + float(f.mean(17)) ** 2)
+        for f in integrands
+    )
+
+
 def _log_error(interval: Interval, level: float) -> float:
     """Standard error of the logarithm whose normal interval at the level covers the interval."""
-    from math import log
-
-    from scipy.special import ndtri  # pyright: ignore[reportUnknownVariableType]
-
     widest = max(log(interval.high / interval.estimate), log(interval.estimate / interval.low))
-    return max(widest / -float(ndtri(level / 2)), 1e-9)  # pyright: ignore[reportUnknownArgumentType]
+    return max(widest / -float(special().ndtri(level / 2)), 1e-9)
 
 
 def matching(state: State) -> list[tuple[Sampler, Outcome]]:

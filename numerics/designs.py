@@ -8,15 +8,16 @@ the ladder of N as a whole.
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
 from typing import Any, cast
 
 from ..theory.claims import Claim, RateClaim, SamplerClaim, parse_claim, support_of
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler, parse_sampler
-from ..theory.symbolic import Integer, sympy
+from ..theory.symbolic import Expr, Integer, sympy
 from ..theory.tables import default_samplers
-from .catalogue_source import CatalogueSource, open_source
+from .catalogue_source import CatalogueSource, counts_of, open_source
 from .integrands.grammar import parse_integrand
 from .integrands.protocol import Integrand
 from .probes import (
@@ -30,9 +31,11 @@ from .probes import (
     strata_of_claim,
 )
 from .sources import SamplerFault, Source
+from .tails import RESOLVED, kurtosis
 
 _RATE_LADDER = (16, 64, 256, 1024, 4096)
 _MOST_POINTS = 1 << 22
+_LARGEST_RATE = 1 << 16  # the ladder of a bare exponent is not moved beyond
 
 
 @dataclass(frozen=True)
@@ -145,7 +148,8 @@ def _degree(claim: RateClaim, size: int) -> int:
         case "best":
             return SMOOTH
         case _:
-            degree = (claim.decay.number - size + 1) / Integer(2)
+            number: Expr = claim.decay.number or Integer(1)
+            degree: Expr = (number - size + 1) / Integer(2)
             if not (degree.is_Integer and 1 <= degree <= 12):
                 raise InputError(
                     "a decay p can be probed where p - s is 1, 3, 5, ..., s being the size of the "
@@ -195,16 +199,13 @@ def ladder(found: Design, asked: Sequence[int]) -> tuple[int, ...]:
         targets = list(found.source.counts)
     counts: set[int] = set()
     for target in targets:
-        honoured = found.source.admissible(target)
-        for sampler in found.claimed_samplers:
-            if asked or found.source.counts is not None:
-                break
-            wanted = sampler.counts_at(target)["N"]  # type: ignore[misc]
-            honoured = found.source.admissible(wanted)
-        counts.add(honoured)
+        wanted = {target}
+        if not asked and found.source.counts is None and found.claimed_samplers:
+            wanted = {counts_of(sampler, target)["N"] for sampler in found.claimed_samplers}
+        counts |= {found.source.admissible(n) for n in wanted}
     for sampler in found.claimed_samplers:
-        if not any(sampler.counts_at(n)["N"] == n for n in counts):  # type: ignore[misc]
-            near = sorted({sampler.counts_at(n)["N"] for n in counts})  # type: ignore[misc]
+        if not any(counts_of(sampler, n)["N"] == n for n in counts):
+            near = sorted({counts_of(sampler, n)["N"] for n in counts})
             raise InputError(
                 f"the claim {sampler.name} must have realisations of the N checked (such as "
                 f"{', '.join(map(str, near))}): got N = {', '.join(map(str, sorted(counts)))}"
@@ -214,7 +215,18 @@ def ladder(found: Design, asked: Sequence[int]) -> tuple[int, ...]:
 
 def _targets(found: Design) -> list[int]:
     targets = _spectrum_targets(found.dim) if found.claimed_samplers or not found.claims else []
-    return sorted({*targets, *(_RATE_LADDER if found.rate_claims else ())})
+    return sorted({*targets, *(n for c in found.rate_claims for n in _rate_targets(c, found.dim))})
+
+
+def _rate_targets(claim: RateClaim, dim: int) -> tuple[int, ...]:
+    """Five N, from the first that resolves the integrands of the claim; fewer if these are fine.
+
+    Twice the least such N is taken, since the source may honour only a smaller one.
+    """
+    least = ceil(2 * RESOLVED * max(kurtosis(f) for f in rate_probes(claim, dim)))
+    if least <= _RATE_LADDER[0]:
+        return _RATE_LADDER
+    return tuple(n for k in range(5) if (n := least << 2 * k) <= _LARGEST_RATE) or (least,)
 
 
 def _spectrum_targets(dim: int) -> list[int]:

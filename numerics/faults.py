@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from ..theory.errors import InputError
 
 BIAS_LEVEL = 1e-6
-"""False-alarm probability of all bias tests of one call of `find_faults` together."""
+"""False-alarm probability of all bias tests of one call of `find_faults`, unless told."""
 
 # Stakes 0.98, 0.49, ..., 0.0153 on either sign: below 1, so that no single loss ruins a bettor.
 _BETS = tuple(sign * 0.98 / 2**halvings for halvings in range(7) for sign in (1, -1))
@@ -53,7 +53,9 @@ class Fault:
     evidence: dict[str, Any]
 
 
-def find_faults(points: Reals, cells: tuple[int, ...] | None = None) -> list[Fault]:
+def find_faults(
+    points: Reals, cells: tuple[int, ...] | None = None, level: float = BIAS_LEVEL
+) -> list[Fault]:
     """Faults of raw points, at most one for each kind (and axis, where the kind speaks of axes).
 
     Parameters
@@ -63,6 +65,8 @@ def find_faults(points: Reals, cells: tuple[int, ...] | None = None) -> list[Fau
         be seen.
     cells : tuple of int, optional
         Numbers of strata along an axis, at which fixed places are looked for besides N.
+    level : float
+        False-alarm probability of all bias tests of this call together.
 
     Returns
     -------
@@ -91,7 +95,7 @@ def find_faults(points: Reals, cells: tuple[int, ...] | None = None) -> list[Fau
     singles = np.delete(points, list(twins), axis=0) if twins else points
     faults = [_duplicates(twins, len(points)), _piles(points, coincidences)]
     faults += [_quantised(singles[:, :, axis], axis + 1) for axis in range(points.shape[2])]
-    return [fault for fault in faults if fault is not None] + _biases(points, cells or ())
+    return [fault for fault in faults if fault is not None] + _biases(points, cells or (), level)
 
 
 def _chunks(points: Reals) -> Iterator[slice]:
@@ -232,7 +236,7 @@ def _on_lattice(values: Reals, scale: int) -> bool:
     return bool(np.all(np.rint(values * scale) / scale == values))
 
 
-def _biases(points: Reals, cells: Iterable[int]) -> list[Fault]:
+def _biases(points: Reals, cells: Iterable[int], level: float) -> list[Fault]:
     """One fault for each axis with a Fourier coefficient that uniform marginals exclude."""
     count, n, dim = points.shape
     if count < 2:
@@ -241,7 +245,7 @@ def _biases(points: Reals, cells: Iterable[int]) -> list[Fault]:
     frequencies = sorted(k for k in {1, 2, 3, *places} if k > 0)
     means = _coefficients(points, frequencies)
     log_capital = np.maximum(_log_capital(means.real), _log_capital(means.imag))
-    biased = log_capital > math.log(2 * len(frequencies) * dim / BIAS_LEVEL)
+    biased = log_capital > math.log(2 * len(frequencies) * dim / level)
     faults: list[Fault] = []
     for axis in np.flatnonzero(biased.any(axis=0)).tolist():
         coefficients = means[:, :, axis].mean(axis=0)
@@ -253,7 +257,7 @@ def _biases(points: Reals, cells: Iterable[int]) -> list[Fault]:
         ]
         fixed = frequencies[worst] in places
         detail = _bias_detail(axis + 1, frequencies[worst], complex(coefficients[worst]), fixed)
-        evidence = {"axis": axis + 1, "realisations": count, "level": BIAS_LEVEL}
+        evidence = {"axis": axis + 1, "realisations": count, "level": level}
         faults.append(Fault("bias", detail, evidence | {"coefficients": found}))
     return faults
 

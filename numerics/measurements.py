@@ -8,19 +8,20 @@ memory does not depend on the number of realisations.
 
 import time
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .campaign import Interval, Moments, estimates, shifted, update, variance_interval
-from .catalogue_source import CHUNK, CatalogueSource
+from .catalogue_source import CatalogueSource, chunk_size
 from .integrands.protocol import Integrand
 from .probes import Frequency, amplitudes
 from .sources import Source
 from .streams import stream
 
 _SHIFT_KEY = 1 << 20  # keeps the shifts' streams apart from the sampler's
-_KEPT = 256  # realisations kept for the search for faults
+_KEPT = 128  # realisations kept for the search for faults
 _KEPT_VALUES = 4_000_000
 
 
@@ -33,18 +34,23 @@ class Measurement:
     n : int
     frequencies : tuple of frequencies
     integrands : tuple of Integrand
+    replicates : int
+        Realisations measured so far.
+    attempted : int
+        Realisations asked of the source; more only if it failed on the way.
     """
 
     n: int
     frequencies: tuple[Frequency, ...]
     integrands: tuple[Integrand, ...]
     replicates: int = 0
+    attempted: int = 0
     seconds: float = 0.0
-    power: dict[Frequency, Moments] = field(default_factory=dict)
-    shifted: dict[str, Moments] = field(default_factory=dict)
-    raw: dict[str, Moments] = field(default_factory=dict)
-    kept: list[NDArray[np.float64]] = field(default_factory=list)
-    means: dict[str, float] = field(default_factory=dict)
+    power: dict[Frequency, Moments] = field(default_factory=dict[Frequency, Moments])
+    shifted: dict[str, Moments] = field(default_factory=dict[str, Moments])
+    raw: dict[str, Moments] = field(default_factory=dict[str, Moments])
+    kept: list[NDArray[np.float64]] = field(default_factory=list[NDArray[np.float64]])
+    means: dict[str, float] = field(default_factory=dict[str, float])
 
     def __post_init__(self) -> None:
         self.power = {m: Moments() for m in self.frequencies}
@@ -54,9 +60,16 @@ class Measurement:
 
 
 def grow(
-    measurement: Measurement, source: Source | CatalogueSource, seed: int, replicates: int
+    measurement: Measurement,
+    source: Source | CatalogueSource,
+    seed: int,
+    replicates: int,
+    deadline: float = inf,
 ) -> None:
-    """Measure until there are ``replicates`` realisations, or the source has no more.
+    """Measure until there are ``replicates`` realisations, the source has no more, or it is late.
+
+    After the deadline, a time of `time.perf_counter`, no further realisation is begun. The chunk
+    is then cut short, which only the last one may be.
 
     Raises
     ------
@@ -67,12 +80,29 @@ def grow(
         replicates = min(replicates, source.realisations[measurement.n])
     while measurement.replicates < replicates:
         start = measurement.replicates
-        chunk = range(start, min(start + CHUNK, replicates))
+        chunk = range(start, min(start + chunk_size(measurement.n), replicates))
         began = time.perf_counter()
-        points = source.realise(measurement.n, seed, chunk)
+        measurement.attempted = chunk.stop
+        points = _drawn(source, measurement.n, seed, chunk, deadline)
         _absorb(measurement, points, seed, start)
-        measurement.replicates = chunk.stop
+        measurement.replicates = measurement.attempted = start + len(points)
         measurement.seconds += time.perf_counter() - began
+        if time.perf_counter() > deadline:
+            return
+
+
+def _drawn(
+    source: Source | CatalogueSource, n: int, seed: int, chunk: range, deadline: float
+) -> NDArray[np.float64]:
+    """A chunk of realisations, or those of them, at least one, that a slow source had time for."""
+    if isinstance(source, CatalogueSource) or source.kind == "file":
+        return source.realise(n, seed, chunk)
+    drawn: list[NDArray[np.float64]] = []
+    for replicate in chunk:
+        drawn.append(source.realise(n, seed, range(replicate, replicate + 1)))
+        if time.perf_counter() > deadline:
+            break
+    return np.concatenate(drawn)
 
 
 def _absorb(measurement: Measurement, points: NDArray[np.float64], seed: int, start: int) -> None:

@@ -19,6 +19,7 @@ JUMP, KINK, SMOOTH = 1, 2, 6
 """Degrees of the Bernoulli polynomials that probe the worst class, one between, the best class."""
 
 _MOST_PAIRS = 45
+_WAVE_POINTS = 1 << 18  # waves of all frequencies are held for so many points at once
 _FEW = 3  # dimensions up to which integrands probe every support that frequencies do
 
 Support = tuple[int, ...]
@@ -105,6 +106,14 @@ def amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDAr
     -------
     array of shape (len(wanted), R)
     """
+    step = max(1, _WAVE_POINTS // points.shape[1])
+    parts = [
+        _amplitudes(points[start : start + step], wanted) for start in range(0, len(points), step)
+    ]
+    return np.concatenate(parts, axis=1)
+
+
+def _amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDArray[np.complex128]:
     waves: dict[tuple[int, int], NDArray[np.complex128]] = {}
     result = np.empty((len(wanted), len(points)), dtype=np.complex128)
     for row, m in enumerate(wanted):

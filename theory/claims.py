@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from .decays import Decay, parse_decay
 from .errors import InputError
-from .expressions import parse_expression
+from .expressions import is_whole, parse_expression
 from .regions import select
 from .samplers import Sampler, family_of, parse_sampler
 from .symbolic import Expr, Integer, sympy
@@ -98,7 +98,7 @@ def support_of(region: str, dim: int) -> tuple[tuple[int, ...], ...]:
     whole = parse_sampler("random", dim).layout
     if region == "overall":
         return tuple(sorted({(1,), (dim,), tuple(range(1, dim + 1))}))
-    if region.replace(",", "").replace(" ", "").isdigit():
+    if is_whole(region.replace(",", "").replace(" ", "")):
         select(whole, region)
         return (tuple(sorted(int(p) for p in region.split(","))),)
     (found,) = select(whole, region)

@@ -10,7 +10,7 @@ its spectrum falls as ρ^-(d+1) on every support, q = d + 1 − s.
 from dataclasses import dataclass
 
 from .errors import InputError
-from .expressions import parse_expression
+from .expressions import is_whole, parse_expression
 from .layouts import Layout
 from .regions import Region, region_of_support
 from .signs import nonnegative
@@ -78,7 +78,7 @@ def _order_of(parameters: str, text: str) -> int:
     for part in parameters.split(","):
         key, _, value = part.partition("=")
         if key.strip() == "k":
-            if not value.strip().isdigit() or int(value) < 1:
+            if not is_whole(value.strip()) or int(value) < 1:
                 raise InputError(f"k must be a whole number of at least 1: got {text!r}")
             return int(value)
     return 2
@@ -90,7 +90,7 @@ def _axes_of(parameters: str, text: str) -> tuple[int, ...]:
         return (1,)
     numbers = parameters.split("axes=")[1].strip().removeprefix("(").split(")")[0].split(",")
     axes = [n.strip() for n in numbers if n.strip()]
-    if not axes or not all(n.isdigit() and int(n) >= 1 for n in axes):
+    if not axes or not all(is_whole(n) and int(n) >= 1 for n in axes):
         raise InputError(f"axes are written as axes=(1,3): got {text!r}")
     return tuple(int(n) for n in axes)
 

@@ -88,6 +88,11 @@ def _combined(op: ast.operator, left: Expr, right: Expr) -> Expr:
             raise ValueError
 
 
+def is_whole(text: str) -> bool:
+    """Whether the text is written in the digits 0-9 alone (``isdigit`` also takes ² and ٣)."""
+    return text.isascii() and text.isdigit()
+
+
 def parse_size(text: str, symbols: Mapping[str, Expr] | None = None) -> Expr:
     """A dimension or block size: a positive whole number, or an expression in the symbols.
 

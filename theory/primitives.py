@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from .decays import Decay, shell_exponent
 from .errors import InputError
+from .expressions import is_whole
 from .layouts import Layout
 from .regions import Region
 from .symbolic import Expr, Integer, sympy
@@ -41,7 +42,7 @@ def parse_primitive(text: str) -> Primitive:
     if word == "line":
         return Primitive(word, 1)
     head, _, tail = word.partition("-")
-    if tail == "flat" and head.isdigit() and int(head) >= 1:
+    if tail == "flat" and is_whole(head) and int(head) >= 1:
         return Primitive("line" if int(head) == 1 else word, int(head))
     raise InputError(f"a primitive is point, line, segment or K-flat: got {text!r}")
 

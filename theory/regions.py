@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from .errors import InputError
+from .expressions import is_whole
 from .layouts import Layout
 from .signs import Assumptions, Range, at_least, nonnegative, symbol
 from .symbolic import Expr, Integer, sympy
@@ -189,7 +190,7 @@ def select(layout: Layout, text: str) -> tuple[Region, ...]:
     everything = regions(layout)
     if word == "overall":
         return everything
-    if word and all(p.strip().isdigit() for p in word.split(",")):
+    if word and all(is_whole(p.strip()) for p in word.split(",")):
         return (region_of_support(layout, tuple(int(p) for p in word.split(","))),)
     found = tuple(r for r in everything if _named(layout, r, word))
     if not found:

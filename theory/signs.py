@@ -87,13 +87,13 @@ def sign_of(expression: Expr, assumptions: Assumptions = ()) -> Sign:
 def _sign_of_number(number: Expr) -> Sign:
     if number.is_zero:
         return "0"
-    if number.is_positive:
+    if number.is_extended_positive:
         return "+"
-    return "-" if number.is_negative else None
+    return "-" if number.is_extended_negative else None
 
 
 def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
-    """Replace the first Min by each of its arguments; agreeing signs are the sign.
+    """Replace the first Min by each of its arguments; what their signs share is the sign.
 
     k (min(x, u) − min(x, v)) has the weak sign of k (u − v) whatever x is.
     """
@@ -108,7 +108,7 @@ def _sign_with_min(expression: Expr, assumptions: Assumptions) -> Sign:
             return _WEAK[sign_of(k * (u - v), assumptions)]
     least = minima[0]
     signs: set[Sign] = {sign_of(expression.xreplace({least: a}), assumptions) for a in least.args}
-    return signs.pop() if len(signs) == 1 else None
+    return signs.pop() if len(signs) == 1 else _common_sign(signs)
 
 
 _WEAK: dict[Sign, Sign] = {"+": ">=0", ">=0": ">=0", "-": "<=0", "<=0": "<=0", "0": "0", None: None}

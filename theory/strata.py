@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import lcm, prod
 
 from .errors import InputError
-from .expressions import parse_expression
+from .expressions import is_whole, parse_expression
 from .layouts import Growth
 from .symbolic import Expr, Integer, Rational, sympy
 
@@ -67,16 +67,16 @@ def parse_strata(text: str, axes: int) -> Strata:
     parts = text.split("x")
     if len(parts) != axes:
         raise InputError(f"{_RULE}, one part per axis: got {len(parts)} for {axes} axes")
-    if all(p.isdigit() for p in parts):
+    if all(is_whole(p) for p in parts):
         return Strata(tuple(_whole(p) for p in parts), (1,) * axes)
     exponents = [_exponent(p) for p in parts]
     given = sympy.Add(*[e for e in exponents if e is not None])
     bare = sum(e is None for e in exponents)
     powers = [(1 - given) / bare if e is None else e for e in exponents]
-    if sum(powers) != 1 or any(p < 0 for p in powers):
+    if sum(powers) != 1 or any(p <= 0 for p, e in zip(powers, exponents, strict=True) if e != 0):
         raise InputError(f"{_RULE}, the powers of N being positive with sum 1: got {text!r}")
     scale = lcm(*[int(p.q) for p in powers])
-    factors = tuple(_whole(p) if p.isdigit() else 1 for p in parts)
+    factors = tuple(_whole(p) if is_whole(p) else 1 for p in parts)
     return Strata(factors, tuple(int(p * scale) for p in powers))
 
 
@@ -88,7 +88,7 @@ def _whole(text: str) -> int:
 
 def _exponent(part: str) -> Expr | None:
     """The power of N of one part; 0 for a whole number, None for a bare N, which takes a share."""
-    if part.isdigit():
+    if is_whole(part):
         return Integer(0)
     if part == "N":
         return None

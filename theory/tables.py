@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from .decays import Decay, parse_decay
 from .errors import InputError
-from .expressions import parse_size
+from .expressions import is_whole, parse_size
 from .orders import Order, dominates
 from .primitives import Primitive, parse_primitive, sampled_dimension
 from .rates import RegionRate, is_no_harder, leading_constant, overall, region_rates
@@ -122,7 +122,7 @@ def parse_dim(text: str | int) -> Expr:
     """A dimension of the grammar: a whole number of at least 1, or ``d``."""
     if isinstance(text, int):
         return parse_size(str(text))
-    if not (text.strip() == "d" or text.strip().isdigit()):
+    if not (text.strip() == "d" or is_whole(text.strip())):
         raise InputError(f"a dimension is a whole number or d: got {text!r}")
     return parse_size(text, {"d": symbol("d")})
 

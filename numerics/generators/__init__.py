@@ -72,7 +72,8 @@ def strata_of(sampler: Sampler, counts: Mapping[str, int]) -> tuple[int, ...]:
 
 def blocks_of(sampler: Sampler, counts: Mapping[str, int]) -> tuple[tuple[int, ...], ...]:
     """Number of strata along each axis of each block."""
-    layout, found = sampler.layout, []
+    layout = sampler.layout
+    found: list[tuple[int, ...]] = []
     for index, members in enumerate(layout.blocks):
         strata: list[int] = []
         for place, group in enumerate(members):
