@@ -216,7 +216,7 @@ def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> 
             _look_for_faults(state, m)
         if state.faults:
             return
-        outcomes = [judgement.outcome for judgement in judgements(state)]
+        outcomes: list[Outcome] = [j.outcome for j in judgements(state)]
         progress(f"{target} realisations at N = {', '.join(str(m.n) for m in state.measurements)}")
         exhausted = all(_reachable(state, m, _MOST) == m.replicates for m in state.measurements)
         if exhausted or _is_decided(state, outcomes):

@@ -6,7 +6,7 @@ the ladder of N as a whole.
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -31,10 +31,11 @@ from .probes import (
     strata_of_claim,
 )
 from .sources import SamplerFault, Source
-from .tails import RESOLVED, kurtosis
+from .tails import resolution
 
 _RATE_LADDER = (16, 64, 256, 1024, 4096)
 _MOST_POINTS = 1 << 22
+_MOST_AXES = 16  # 2^d strata are drawn up to here
 _LARGEST_RATE = 1 << 16  # the ladder of a bare exponent is not moved beyond
 
 
@@ -201,8 +202,8 @@ def ladder(found: Design, asked: Sequence[int]) -> tuple[int, ...]:
     for target in targets:
         wanted = {target}
         if not asked and found.source.counts is None and found.claimed_samplers:
-            wanted = {counts_of(sampler, target)["N"] for sampler in found.claimed_samplers}
-        counts |= {found.source.admissible(n) for n in wanted}
+            wanted = {_several(_honoured(s), target, found.dim) for s in found.claimed_samplers}
+        counts |= {_several(found.source.admissible, n, found.dim) for n in wanted}
     for sampler in found.claimed_samplers:
         if not any(counts_of(sampler, n)["N"] == n for n in counts):
             near = sorted({counts_of(sampler, n)["N"] for n in counts})
@@ -210,7 +211,19 @@ def ladder(found: Design, asked: Sequence[int]) -> tuple[int, ...]:
                 f"the claim {sampler.name} must have realisations of the N checked (such as "
                 f"{', '.join(map(str, near))}): got N = {', '.join(map(str, sorted(counts)))}"
             )
+    if 1 in counts:
+        raise InputError(f"the source must honour some N of at least 2: got 1 for {targets}")
     return tuple(sorted(counts))
+
+
+def _honoured(sampler: Sampler) -> Callable[[int], int]:
+    return lambda n: counts_of(sampler, n)["N"]
+
+
+def _several(admissible: Callable[[int], int], target: int, dim: int) -> int:
+    """The admissible N near the target; where that is one point, the one near 2^d."""
+    n = admissible(target)
+    return n if n > 1 or dim > _MOST_AXES else admissible(2**dim)
 
 
 def _targets(found: Design) -> list[int]:
@@ -223,7 +236,7 @@ def _rate_targets(claim: RateClaim, dim: int) -> tuple[int, ...]:
 
     Twice the least such N is taken, since the source may honour only a smaller one.
     """
-    least = ceil(2 * RESOLVED * max(kurtosis(f) for f in rate_probes(claim, dim)))
+    least = ceil(2 * max(resolution(f) for f in rate_probes(claim, dim)))
     if least <= _RATE_LADDER[0]:
         return _RATE_LADDER
     return tuple(n for k in range(5) if (n := least << 2 * k) <= _LARGEST_RATE) or (least,)

@@ -14,6 +14,7 @@ import operator
 import traceback
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, Protocol, cast
 
@@ -274,6 +275,7 @@ def _derives_from_scipy(target: type[Any], name: str) -> bool:
     )
 
 
+@lru_cache(maxsize=64)
 def _random_keyword(name: str, engine: type[Any]) -> str:
     """``rng`` (scipy 1.15 on) or ``seed``, as the signature of the engine has it."""
     for cls in engine.__mro__:

@@ -22,9 +22,7 @@ from .streams import stream
 SEEN = 64
 """Points that must be expected to have met the bump; that none has is then of chance e^-64."""
 
-RESOLVED = 1.5
-"""Least N/κ for a statement on N → ∞: from there on N^r V of the catalogue rises less than twofold
-for Gaussians, disks and boxes, which the allowance for drift covers."""
+_RESOLVED = 1.5  # from there on N^r V under jitter rises less than twofold: it is allowed as drift
 
 _NODES = 1 << 16  # of the midpoint rule on one axis: bumps of width 1e-3 take 65 of them
 _DRAWS = 1 << 17
@@ -37,7 +35,13 @@ def is_seen(integrand: Integrand, n: int, replicates: int) -> bool:
 
 def is_resolved(integrand: Integrand, n: int) -> bool:
     """Whether N points resolve the integrand, so that its rate can show."""
-    return n >= RESOLVED * kurtosis(integrand)
+    return n >= resolution(integrand)
+
+
+def resolution(integrand: Integrand) -> float:
+    """Least N whose N^(1/d) strata along each axis resolve the narrowest axis of the integrand."""
+    axes = _axes(integrand) or ()
+    return _RESOLVED * max(kurtosis(integrand), *(kurtosis(f) ** len(axes) for f in axes), 1.0)
 
 
 @lru_cache(maxsize=1024)
@@ -47,7 +51,7 @@ def kurtosis(integrand: Integrand) -> float:
         v = float(integrand.mean(17))
         return (1 - 3 * v * (1 - v)) / (v * (1 - v))
     axes = _axes(integrand)
-    if axes is None:
+    if axes is None:  # by draws, which may miss a very narrow bump
         return _central(_raw(integrand(stream(0).random((_DRAWS, integrand.dim)))))
     nodes = (np.arange(_NODES)[:, None] + 0.5) / _NODES
     moments = [_raw(f(nodes)) for f in axes]
@@ -63,6 +67,8 @@ def _axes(integrand: Integrand) -> tuple[Integrand, ...] | None:
             return tuple(Gaussian((s,)) for s in integrand.sigmas)
         case Product():
             return (Product(1, integrand.k, integrand.c),) * integrand.dim
+        case Box():
+            return tuple(Box((side,)) for side in integrand.sides if side < 1)
         case _:
             return None
 

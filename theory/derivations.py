@@ -13,7 +13,7 @@ from .orders import Case
 from .primitives import Primitive, parse_primitive, sampled_dimension
 from .profiles import SaturatingMonomial
 from .radial import N, Radial, closed_form, leading
-from .rates import RegionRate, overall, region_rates
+from .rates import RegionRate, overall, region_rates, saturated
 from .regions import select
 from .samplers import Sampler, parse_sampler
 from .spelling import factor_names, spectrum_latex, spectrum_text
@@ -107,7 +107,7 @@ def _region_steps(sampler: Sampler, decay: Decay, name: str, rate: RegionRate) -
             spectrum_latex(sampler, rate.region),
             f"exact expected power spectrum on this region ({sampler.reference}){_laws(sampler)}",
         )
-    for monomial in rate.profile:
+    for monomial in saturated(sampler, rate):
         if monomial.degree is sympy.oo:
             yield from _alias_steps(name, rate, monomial)
         else:

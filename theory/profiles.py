@@ -35,7 +35,8 @@ class SaturatingMonomial:
     plateau_exponent : sympy.Expr
         g; 0 but for combs.
     plateau : sympy.Expr
-        γ.
+        γ. Of a step the mean height of the comb; of a monomial 1 until ``rates.saturated`` has
+        asked for the supremum, which no exponent depends on.
     scale : sympy.Expr
         α of a step, whose first alias is at α N^e; 1 otherwise.
     form : tuple

@@ -8,13 +8,14 @@ shell energies ρ^-q has Var ~ Σ_j N^-1 N^(−e_j min(b_j, q)), a logarithm exa
 Overall the slowest of the regions in which the integrand has power decides.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from .decays import Decay
 from .errors import UndecidedSign
 from .expansions import expand
 from .orders import Case, Order, cases, dominates, slowest
+from .plateaus import plateau
 from .primitives import Primitive, shells
 from .profiles import SaturatingMonomial, newton_polygon
 from .radial import Leading, Radial, leading
@@ -59,6 +60,14 @@ def _derived(sampler: Sampler, region: Region) -> Profile:
 def profile_of(sampler: Sampler, region: Region) -> Profile:
     """The profile of a sampler on a region, derived from its kernel (Eq. 18)."""
     return _derived(sampler, region)
+
+
+def saturated(sampler: Sampler, rate: RegionRate) -> Profile:
+    """The profile of a region with its plateau γ, the supremum of N·P_S as N → ∞."""
+    if sampler.kernel is None or all(m.degree is sympy.oo for m in rate.profile):
+        return rate.profile
+    gamma = plateau(sampler, rate.region)
+    return tuple(m if m.degree is sympy.oo else replace(m, plateau=gamma) for m in rate.profile)
 
 
 def region_rates(
@@ -142,7 +151,7 @@ def is_no_harder(first: RegionRate, second: RegionRate) -> bool:
     )
 
 
-def leading_constant(rate: RegionRate, decay: Decay) -> Leading | None:
+def leading_constant(sampler: Sampler, rate: RegionRate, decay: Decay) -> Leading | None:
     """Leading term of Eq. 17 on a region for the classes worst and best, in c_f and ρ0.
 
     For the monomial model: exact in the best case, where low frequencies decide; in the worst
@@ -151,7 +160,7 @@ def leading_constant(rate: RegionRate, decay: Decay) -> Leading | None:
     """
     if decay.family not in ("worst", "best") or rate.q is None or len(rate.profile) != 1:
         return None
-    monomial = rate.profile[0]
+    (monomial,) = saturated(sampler, rate)
     if monomial.coefficient is None or rate.order is None or not rate.order.log_power.is_Integer:
         return None
     s = rate.region.dimension

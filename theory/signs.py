@@ -136,7 +136,8 @@ def _sign_of_quotient(expression: Expr) -> Sign:
         return _sign_of_number(expression)
     symbols = tuple(sorted(expression.free_symbols, key=str))
     element = _functions(symbols).from_expr(expression)
-    over, under = (_sign_of_polynomial(p) for p in (element.numer, element.denom))
+    over: Sign = _sign_of_polynomial(element.numer)
+    under: Sign = _sign_of_polynomial(element.denom)
     if over is None or under not in ("+", "-"):
         return None
     return over if under == "+" else _OPPOSITE[over]

@@ -147,7 +147,7 @@ def _rows(
             len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
         )
         dominated = not is_top and len(cases) == 1 and _is_dominated(rate, top, rates)
-        found = leading_constant(rate, decay) if constants else None
+        found = leading_constant(sampler, rate, decay) if constants else None
         constant = found.constant if found else None
         yield Row(*head, region, order, constant, False, dominated)
     for case in cases:
