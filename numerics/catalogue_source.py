@@ -15,7 +15,7 @@ from .streams import stream
 CHUNK = 64
 """Realisations drawn from one stream, unless N is very large."""
 
-_CHUNK_POINTS = 1 << 22
+_CHUNK_POINTS = 1 << 20
 
 
 def chunk_size(n: int) -> int:

@@ -7,12 +7,13 @@ jump, so the worst case of a region is p = s + 1, q = 1, everywhere. The ball is
 its spectrum falls as ρ^-(d+1) on every support, q = d + 1 − s.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from .errors import InputError
 from .expressions import is_whole, parse_expression
 from .layouts import Layout
-from .regions import Region, region_of_support
+from .regions import Region, region_of_support, select
 from .signs import nonnegative
 from .symbolic import Expr, Integer, sympy
 
@@ -38,12 +39,36 @@ class Decay:
         p of ``p=...``, k of the Bernoulli integrands.
     axes : tuple of int
         The one support that carries the power of ``bernoulli`` and ``half-space``.
+    powers : tuple of (str, sympy.Expr)
+        For ``per_region``: regions with their p.
     """
 
     name: str
     family: str
     number: Expr | None = None
     axes: tuple[int, ...] = ()
+    powers: tuple[tuple[str, Expr], ...] = ()
+
+
+def per_region(powers: Mapping[str, Expr | int]) -> Decay:
+    """A class with its own decay p on each named region, and no power on any other.
+
+    Parameters
+    ----------
+    powers : mapping of str to sympy.Expr
+        Region, in its grammar, to p; ``oo`` for no power beyond ρ0. Where two names hold one
+        region the first counts.
+
+    Raises
+    ------
+    InputError
+        If no region is named.
+    """
+    if not powers:
+        raise InputError("a class per region must name a region: got none")
+    listed = tuple((region, sympy.sympify(p, strict=True)) for region, p in powers.items())
+    name = ", ".join(f"p={p} on {region}" for region, p in listed)
+    return Decay(name, "per region", powers=listed)
 
 
 def parse_decay(text: str) -> Decay:
@@ -120,11 +145,13 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
         if decay.family == "disk" and full != 2:
             raise InputError(f"a disk needs --dim 2 (use ball): got {full}")
         return sympy.expand(full + 1 - s)
-    if decay.family == "p":
-        q = number - s
-        if not nonnegative(q, region.assumptions) or q == 0:
-            raise InputError(f"p must exceed the support size s: got p = {number}, s = {s}")
-        return q
+    if decay.family in ("p", "per region"):
+        p = number if decay.family == "p" else _named_power(decay, layout, region)
+        if p is None or p is sympy.oo:
+            return p
+        if not nonnegative(p - s, region.assumptions) or p == s:
+            raise InputError(f"p must exceed the support size s: got p = {p}, s = {s}")
+        return p - s
     if decay.family == "product":
         return 2 * number - 1
     if decay.family == "additive":
@@ -132,6 +159,14 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
     if not _holds_support(layout, region, decay.axes):
         return None
     return 2 * number - 1
+
+
+def _named_power(decay: Decay, layout: Layout, region: Region) -> Expr | None:
+    """p of the first name that holds the region; None if none does."""
+    for name, p in decay.powers:
+        if any(r.counts == region.counts for r in select(layout, name)):
+            return p
+    return None
 
 
 def _holds_support(layout: Layout, region: Region, axes: tuple[int, ...]) -> bool:

@@ -69,6 +69,7 @@ def _condition(condition: Expr) -> list[str]:
 
 def label_latex(name: str) -> str:
     """A region's name for LaTeX text mode, what is mathematical in it as mathematics."""
+    name = re.sub(r" ([+-]) ", r"\1", name)
     if re.fullmatch(r"[\d,]+", name):
         return rf"$\{{{name}\}}$"
     pieces = re.split(r"(\{[^}]*\}|[\w.()+-]+(?:<=|[<=])\S+|\d[\d,.a-z]*)", name)
@@ -133,8 +134,11 @@ def _term(sampler: Sampler, term: Term, counts: tuple[Expr, ...], latex: bool) -
     coefficient, pieces = term.coefficient, list[str]()
     for group, factor in term.factors:
         single = counts[group] == 1
-        if len(factor.terms) == 1 and single:  # one axis: its constant joins the coefficient
-            coefficient, factor = coefficient * factor.terms[0][0], _unit(factor)
+        if single and factor.terms:  # one axis: its constant joins the coefficient
+            terms, under = _over_one_denominator(factor)
+            coefficient, factor = coefficient / under, Factor(tuple(terms))
+            if len(terms) == 1:
+                coefficient, factor = coefficient * terms[0][0], _unit(factor)
         pieces.append(_product(sampler, group, factor, single, latex))
     return _scaled(sampler, coefficient, [p for p in pieces if p], latex)
 
@@ -160,7 +164,7 @@ def _scaled(sampler: Sampler, coefficient: FracElement, pieces: list[str], latex
     if latex:
         return rf"{sign}\frac{{{front}{body}}}{{{spell(under)}}}"
     if "prod" in body:
-        return f"{sign}({spell(over / under)}) {body}"
+        return f"{sign}({spell(over)}/{_bracketed(spell(under), under)}) {body}"
     return f"{sign}{front}{body}/{_bracketed(spell(under), under)}"
 
 
@@ -183,7 +187,7 @@ def _product(sampler: Sampler, group: int, factor: Factor, single: bool, latex: 
         closed = closed or body.startswith(r"\frac")
     brackets = (r"\left[", r"\right]") if latex else ("[", "]")
     if single or place.size == 1:
-        return body if closed or len(inside) == 1 or below != 1 else body.join(brackets)
+        return body if len(inside) == 1 else body.join(brackets)
     return _over_axes(sampler, place.coordinates, latex) + (body if closed else body.join(brackets))
 
 
@@ -234,7 +238,7 @@ def _atom(sampler: Sampler, atom: Atom, axis: str, latex: bool) -> str:
 
 
 def _bracketed(text: str, expression: Expr) -> str:
-    return text if expression.is_Atom else f"({text})"
+    return text if expression.is_Atom or expression.is_Pow else f"({text})"
 
 
 def _tidy(sampler: Sampler, coefficient: FracElement) -> Expr:
