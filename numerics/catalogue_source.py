@@ -19,8 +19,8 @@ _CHUNK_POINTS = 1 << 20
 
 
 def chunk_size(n: int) -> int:
-    """Realisations of N points that are drawn and measured together, from one stream."""
-    return max(1, min(CHUNK, _CHUNK_POINTS // n))
+    """Realisations of N points that are drawn and measured together: a power of two up to 64."""
+    return min(CHUNK, 1 << max(0, (_CHUNK_POINTS // n).bit_length() - 1))
 
 
 def counts_of(sampler: Sampler, n: int) -> Mapping[str, int]:

@@ -14,7 +14,7 @@ from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler
 from .campaign import Interval, variance_interval
-from .catalogue_source import CHUNK
+from .catalogue_source import chunk_size
 from .designs import (
     Design,
     all_frequencies,
@@ -48,6 +48,7 @@ from .verdicts import (
 )
 
 _FIRST, _MOST = 128, 1 << 14  # replicates in the first round, and at most
+_CELLS = (4, 5, 6, 7, 8)  # waves of the density along an axis that the search for faults adds
 _NOISE = 1e-27  # relative mean squared error that is but rounding
 _FAULT_SHARE = 0.5  # of the false alarms, allowed to the search for faults
 
@@ -209,7 +210,7 @@ def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> 
     while target <= _MOST:
         for m in state.measurements:
             while m.replicates < _reachable(state, m, target):
-                wanted = m.replicates + CHUNK
+                wanted = m.replicates + chunk_size(m.n)
                 grow(m, state.design.source, state.design.seed, wanted, deadline)
                 if time.perf_counter() > deadline:
                     return
@@ -242,7 +243,7 @@ def _look_for_faults(state: State, m: Measurement) -> None:
         return
     state.judged.add(m.n)
     known = {(f.kind, f.detail) for f in state.faults}
-    found = find_faults(kept_points(m), level=_bias_level(state))
+    found = find_faults(kept_points(m), _CELLS, _bias_level(state))
     state.faults += [f for f in found if (f.kind, f.detail) not in known]
 
 

@@ -36,7 +36,7 @@ class RegionConstant:
 
 @dataclass(frozen=True)
 class Crossover:
-    """Below N = ``count`` the fast region's term is the larger one, above it the slow one's."""
+    """Below N = ``count`` the fast regions' term is the larger one, above it the slow ones'."""
 
     fast: RegionConstant
     slow: RegionConstant
@@ -110,10 +110,10 @@ def _second_moment(factor: Factor) -> Mpf:
 def crossovers(sampler: Sampler, integrand: Integrand) -> tuple[Crossover, ...]:
     """Where the leading region changes, in the order in which it happens.
 
-    Starting with the region whose term is the largest at N = 1, each later leader is the slower
-    region that overtakes first.
+    Regions of one order act together. Starting with the order whose term is the largest at N = 1,
+    each later leader is the slower one that overtakes first.
     """
-    constants = [c for c in region_constants(sampler, integrand) if c.constant > 0]
+    constants = _by_order([c for c in region_constants(sampler, integrand) if c.constant > 0])
     if not constants:
         return ()
     leader = max(constants, key=lambda c: (c.constant, -float(c.order.exponent)))
@@ -128,6 +128,22 @@ def crossovers(sampler: Sampler, integrand: Integrand) -> tuple[Crossover, ...]:
             return tuple(found)
         found.append(min(meetings, key=lambda x: x.count))
         leader = found[-1].slow
+
+
+def _by_order(constants: list[RegionConstant]) -> list[RegionConstant]:
+    """One constant per order, the sum over the regions that share it."""
+    alike: dict[Order, list[RegionConstant]] = {}
+    for c in constants:
+        alike.setdefault(c.order, []).append(c)
+    with mp.workdps(_DIGITS):
+        return [
+            RegionConstant(
+                "; ".join(dict.fromkeys(c.region for c in members)),
+                mp.fsum(c.constant for c in members),
+                order,
+            )
+            for order, members in alike.items()
+        ]
 
 
 def _gap(fast: RegionConstant, slow: RegionConstant) -> Mpf:

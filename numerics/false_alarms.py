@@ -110,9 +110,7 @@ def line(row: Row) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; 1 if a true claim was contradicted or a wrong one found consistent."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=100, help="checks of each case")
     parser.add_argument("--budget", type=float, default=2.0, help="seconds of each check")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")

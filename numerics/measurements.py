@@ -22,7 +22,7 @@ from .streams import stream
 
 _SHIFT_KEY = 1 << 20  # keeps the shifts' streams apart from the sampler's
 _KEPT = 128  # realisations kept for the search for faults
-_KEPT_VALUES = 4_000_000
+_KEPT_VALUES = 1 << 20
 
 
 @dataclass

@@ -106,11 +106,15 @@ def amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDAr
     -------
     array of shape (len(wanted), R)
     """
-    step = max(1, _WAVE_POINTS // points.shape[1])
-    parts = [
-        _amplitudes(points[start : start + step], wanted) for start in range(0, len(points), step)
-    ]
-    return np.concatenate(parts, axis=1)
+    realisations, n = points.shape[:2]
+    step, size = max(1, _WAVE_POINTS // n), min(n, _WAVE_POINTS)
+    result = np.zeros((len(wanted), realisations), dtype=np.complex128)
+    for start in range(0, realisations, step):
+        for first in range(0, n, size):
+            part = points[start : start + step, first : first + size]
+            share = part.shape[1] / n
+            result[:, start : start + step] += share * _amplitudes(part, wanted)
+    return result
 
 
 def _amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDArray[np.complex128]:

@@ -137,7 +137,13 @@ def power_array(
     """
     flat = m.reshape(-1, m.shape[-1])
     result = np.ones(len(flat))
-    masks, inverse = np.unique(flat != 0, axis=0, return_inverse=True)
+    packed = np.packbits(flat != 0, axis=1)  # rows of bytes are sorted much faster than of bools
+    if packed.shape[1] == 1:
+        masks, inverse = np.unique(packed[:, 0], return_inverse=True)
+        masks = masks[:, None]
+    else:
+        masks, inverse = np.unique(packed, axis=0, return_inverse=True)
+    masks = np.unpackbits(masks, axis=1, count=flat.shape[1]).astype(bool)
     for index, mask in enumerate(masks):
         rows = np.flatnonzero(inverse.reshape(-1) == index)
         if mask.any():

@@ -8,9 +8,11 @@ is known in total from Parseval and bounded by sup N·P_S.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from math import log10
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..theory.errors import InputError
 from ..theory.kernels import Factor as KernelFactor
@@ -22,6 +24,8 @@ from .spectra import element_value, power_array
 
 BOX = 2_000_000
 """Frequencies in a lattice sum."""
+
+_SLAB = 1 << 18  # frequencies handled at once
 
 
 @dataclass(frozen=True)
@@ -160,6 +164,24 @@ def _tree_value(
     return total, held
 
 
+@lru_cache(maxsize=2)
+def _lattice(
+    integrand: Integrand, dim: int, half: int
+) -> tuple[tuple[NDArray[np.int64], NDArray[np.float64]], ...]:
+    """Slabs of frequencies m ≠ 0, |m_i| <= half, one of each ±m where m_1 ≠ 0, and their energy."""
+    axis, slabs = np.arange(-half, half + 1), list[tuple[NDArray[np.int64], NDArray[np.float64]]]()
+    thick = max(1, _SLAB // len(axis) ** (dim - 1))
+    for start in range(0, half + 1, thick):
+        first = np.arange(start, min(start + thick, half + 1))
+        grid = np.meshgrid(first, *[axis] * (dim - 1), indexing="ij")
+        m = np.stack(grid, axis=-1).reshape(-1, dim)
+        # Of the plane m_1 = 0 both signs are there: they count once each, all others twice.
+        m = m[(m != 0).any(axis=1)]
+        weight = np.where(m[:, 0] == 0, 1.0, 2.0)
+        slabs.append((m, weight * integrand.coefficient_power(m)))
+    return tuple(slabs)
+
+
 def _lattice_variance(
     sampler: Sampler, counts: Mapping[str, int], integrand: Integrand, box: int
 ) -> ExactVariance:
@@ -169,13 +191,8 @@ def _lattice_variance(
             "an exact variance of an integrand that is no product needs --dim of at most 3 and a "
             f"sampler without combs: got {sampler.name} with --dim {d}"
         )
-    half = int(box ** (1 / d)) // 2
-    axis = np.arange(-half, half + 1)
     inside = total = 0.0
-    for first in axis:  # slabs keep the memory small
-        m = np.stack(np.meshgrid([first], *[axis] * (d - 1), indexing="ij"), axis=-1).reshape(-1, d)
-        m = m[(m != 0).any(axis=1)]
-        energy = integrand.coefficient_power(m)
+    for m, energy in _lattice(integrand, d, int(box ** (1 / d)) // 2):
         total += float(energy.sum())
         inside += float((energy * power_array(sampler, counts, m)).sum())
     with mp.workdps(20):

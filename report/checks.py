@@ -1,153 +1,334 @@
-"""The document of a check, printed: verdict, faults, regions, variances, claims."""
+"""The document of a check, printed: verdict, claims and witnesses first, then the evidence."""
 
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from math import floor, inf, log, log10
 from typing import Any
 
-from .grids import aligned, booktabs, comma_separated, escaped, markdown
+from .grids import PREAMBLE, aligned, booktabs, comma_separated, escaped, markdown, without_repeats
 
 Document = dict[str, Any]
+Writer = Callable[[Document | None], str]
 
-_REGION_HEAD = ("region", "N", "frequency", "N·P measured [95 %]", "N·P of the claim", "")
-_RATE_HEAD = ("integrand", "region", "N", "variance [95 %]", "exact", "slope [95 %]", "theory")
+_MOST_ALIKE = 3  # supports of one size that are listed one by one though they agree
+_FEW_AXES = 4  # coordinates up to which a frequency is written as a vector
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and a table under it; ``repeated`` leading columns are shown once per group."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: Sequence[Sequence[str]]
+    repeated: int
 
 
 def render(document: Document, form: str) -> str:
     """The document in one of the formats of the command line."""
     if form == "json":
         return json.dumps(document, indent=1)
-    rows = list(_variance_rows(document))
     if form == "csv":
-        return comma_separated(_RATE_HEAD, rows)
+        return _csv(document)
+    write = _math if form == "latex" else _plain
+    sections = [s for s in (_spectrum(document, write), _variances(document, write)) if s.rows]
+    words, ends = list(_words(document)), list(_ends(document))
     if form == "latex":
-        head = [escaped(h) for h in _RATE_HEAD]
-        return booktabs("lllrrrl", head, [[escaped(c) for c in r] for r in rows])
+        return _latex(words, sections, ends)
     if form == "markdown":
-        return "\n\n".join([_summary(document), markdown(_RATE_HEAD, rows)])
-    parts = [_summary(document), *_faults(document)]
-    spectrum = list(_spectrum_rows(document))
-    if spectrum:
-        parts.append("Spectrum on raw points, the most telling frequency per region and N\n")
-        parts[-1] += aligned(_REGION_HEAD, spectrum)
-    if rows:
-        parts.append("Variance on shifted points\n" + aligned(_RATE_HEAD, rows))
-    parts += [*_claims(document), *_ends(document)]
-    return "\n\n".join(parts)
+        return _markdown(words, sections, ends)
+    tables = [
+        f"{s.title}\n{aligned(s.head, without_repeats(s.rows, s.repeated))}" for s in sections
+    ]
+    return "\n\n".join(["\n".join(words), *tables, "\n".join(ends)])
 
 
-def _summary(document: Document) -> str:
-    plan = document["plan"]
-    source = " ".join(plan["sources"])
-    reach = document["n_range"]
-    where = f"N = {reach[0]} to {reach[1]}" if reach else "no N"
-    stopped = " (interrupted)" if document["interrupted"] else ""
-    return (
-        f"{document['verdict'].upper()}: {source} in {plan['dim']}D, {where}, "
+def _markdown(words: Sequence[str], sections: Sequence[Section], ends: Sequence[str]) -> str:
+    verdict, *others = words
+    parts = [f"**{verdict}**", "\n".join(f"- {w.strip()}" for w in others)]
+    for s in sections:
+        parts += [s.title + ".", markdown(s.head, s.rows)]
+    return "\n\n".join([*filter(None, parts), "\n".join(f"- {e}" for e in ends)])
+
+
+def _latex(words: Sequence[str], sections: Sequence[Section], ends: Sequence[str]) -> str:
+    parts = [PREAMBLE, *(rf"\par\noindent {_latex_prose(w.strip())}" for w in words)]
+    for s in sections:
+        body = [[_latex_cell(c) for c in r] for r in without_repeats(s.rows, s.repeated)]
+        head = [_latex_prose(h) for h in s.head]
+        parts.append(rf"\par\medskip\noindent {_latex_prose(s.title)}\par\noindent")
+        parts.append(rf"{{\small {booktabs('l' * len(head), head, body)}}}")
+    return "\n".join([*parts, *(rf"\par\noindent {_latex_prose(e)}" for e in ends)])
+
+
+def _latex_cell(text: str) -> str:
+    return text if text.startswith("$") else _latex_prose(text)
+
+
+_FORMULA = re.compile(
+    r"N·P_S|P_S|chi\^2|\bm_?i? = \([^)]*\)|\bm_\w+ = -?\d+|\bN = \d+|N -> oo|\boo\b"
+)
+
+
+def _latex_prose(text: str) -> str:
+    """Text for LaTeX, the formulas in it as mathematics."""
+    found, last = "", 0
+    for match in _FORMULA.finditer(text):
+        found += escaped(text[last : match.start()]) + f"${_set(match.group())}$"
+        last = match.end()
+    return found + escaped(text[last:]).replace("×", r"$\times$")
+
+
+def _set(formula: str) -> str:
+    formula = formula.replace("N·P_S", "NP_S").replace("chi", r"\chi").replace("->", r"\to")
+    return re.sub(r"\boo\b", r"\\infty", re.sub(r"_(\d+)", r"_{\1}", formula))
+
+
+def _csv(document: Document) -> str:
+    """The measured variances; the ends of an interval have columns of their own."""
+    intervals = ("variance", "raw_variance", "raw_mse", "bias")
+    head = ["integrand", "region", "n", "replicates"]
+    head += [f"{k}{end}" for k in intervals for end in ("", "_low", "_high")]
+    regions = {r["integrand"]: r["region"] for r in document["rates"]}
+    rows: list[list[str]] = []
+    for p in document["points"]:
+        cells: list[object] = [p["integrand"], regions.get(p["integrand"]), p["n"], p["replicates"]]
+        for k in intervals:
+            interval: Document = p.get(k) or {}
+            cells += [interval.get(end) for end in ("estimate", "low", "high")]
+        rows.append(["" if c is None else str(c) for c in [*cells, p["exact"], p["seconds"]]])
+    return comma_separated([*head, "exact", "seconds"], rows)
+
+
+def _words(document: Document) -> Iterator[str]:
+    """What a reader must know first: the verdict, the faults, each claim and its witness."""
+    plan, reach = document["plan"], document["n_range"]
+    where = "no N measured"
+    if reach:
+        where = f"N = {reach[0]}" + (f" to {reach[1]}" if reach[1] != reach[0] else "")
+    stopped = ", interrupted" if document["interrupted"] else ""
+    yield (
+        f"{document['verdict'].upper()}: {' '.join(plan['sources'])} in {plan['dim']}D, {where}, "
         f"{document['seconds']:.1f} s{stopped}"
+    )
+    for f in document["faults"]:
+        yield f"  fault, {f['kind']}: {f['detail']}"
+    for c in document["claims"]:
+        yield from _claim(c, document["level"])
+    if not document["claims"] or any("~" not in c["claim"] for c in document["claims"]):
+        matches = ", ".join(document["matches"]) or "none established"
+        yield f"  catalogue samplers whose spectrum the points have: {matches}"
+
+
+def _claim(c: Document, level: float) -> Iterator[str]:
+    word = {True: "holds", False: "FAILS", None: "undecided"}[c["holds"]]
+    line = f"  claim {c['claim']}: {word}"
+    if c.get("failing"):
+        line += f" in {c['failing']['tests']} of {c['failing']['of']} comparisons"
+    if c.get("exponents") and c["exponents"][0] is not None:
+        line += " (exponents not excluded: {:.3f} to {:.3f})".format(*c["exponents"])
+    yield line
+    if c["witness"]:
+        yield "    witness" + _witness(c["witness"], level)
+
+
+def _witness(w: Document, level: float) -> str:
+    if w["what"] == "exponent":
+        return (
+            f": chi^2 of the claimed exponent is {w['chi2']:.3g}, excluded above "
+            f"{w['threshold']:.3g}; drift at finite N is allowed for"
+        )
+    at = short(w["at"]) if isinstance(w["at"], str) else frequency_text(w["at"])
+    place = f" on region {short(w['region'])}" if w["region"] else ""
+    low, high = w["measured"]["low"], w["measured"]["high"]
+    shown = f"{low:.3g}, {'oo' if high is None else format(high, '.3g')}"
+    return (
+        f"{place}: {w['what'].replace('N P_S(m)', 'N·P_S')} at {at}, N = {w['n']}: measured "
+        f"{w['measured']['estimate']:.3g} in [{shown}] (level {level:.0e}), "
+        f"claimed {w['predicted']:.3g}"
     )
 
 
-def _faults(document: Document) -> Iterator[str]:
-    if document["faults"]:
-        lines = [f"  {f['kind']}: {f['detail']}" for f in document["faults"]]
-        yield "Faults\n" + "\n".join(lines)
+def frequency_text(frequency: Sequence[int]) -> str:
+    """``m = (1, 0)``; in many dimensions the nonzero coordinates alone, ``m_4 = 1, m_9 = 2``."""
+    if len(frequency) <= _FEW_AXES:
+        return "m = (" + ", ".join(map(str, frequency)) + ")"
+    nonzero = [(i, k) for i, k in enumerate(frequency, 1) if k]
+    if len(nonzero) == len(frequency) and len({k for _, k in nonzero}) == 1:
+        return f"every m_i = {nonzero[0][1]}"
+    return ", ".join(f"m_{i} = {k}" for i, k in nonzero)
 
 
-def number(interval: Document | None, digits: int = 4) -> str:
-    """``estimate [low, high]``."""
+def short(text: str) -> str:
+    """Four coordinates in a row and more as ``1..10``."""
+    return re.sub(r"\d+(?:,\d+){3,}", _as_range, text)
+
+
+def _as_range(match: "re.Match[str]") -> str:
+    numbers = [int(i) for i in match.group().split(",")]
+    in_a_row = numbers == list(range(numbers[0], numbers[-1] + 1))
+    return f"{numbers[0]}..{numbers[-1]}" if in_a_row else match.group()
+
+
+def _plain(interval: Document | None) -> str:
+    """``1.23e-04 [1.10e-04, 1.40e-04]``; ``-`` where nothing is known."""
     if interval is None:
         return "-"
-    high = "oo" if interval["high"] is None else f"{interval['high']:.{digits}g}"
-    return f"{interval['estimate']:.{digits}g} [{interval['low']:.{digits}g}, {high}]"
+    high = "oo" if interval["high"] is None else _number(interval["high"])
+    return f"{_number(interval['estimate'])} [{_number(interval['low'])}, {high}]"
 
 
-def _spectrum_rows(document: Document) -> Iterator[tuple[str, ...]]:
-    """For each region and N the frequency that disagrees, or the lowest one."""
-    for region in document["regions"]:
+def _number(value: float) -> str:
+    return "0" if value == 0 else f"{value:.2e}"
+
+
+def _math(interval: Document | None) -> str:
+    r"""``$1.23\;[1.10,\,1.40]\times10^{-4}$``."""
+    if interval is None:
+        return "-"
+    if interval["estimate"] == 0:
+        return "$0$"
+    power = floor(log10(abs(interval["estimate"])))
+    values = [interval["estimate"], interval["low"], interval["high"]]
+    shown = [r"\infty" if v is None else f"{v / 10.0**power:.2f}" for v in values]
+    scale = rf"\times10^{{{power}}}" if power else ""
+    return rf"${shown[0]}\;[{shown[1]},\,{shown[2]}]{scale}$"
+
+
+def _exactly(value: str | None, like: str) -> str:
+    """An exact value in the notation of its neighbours."""
+    if value is None:
+        return "-"
+    number = float(value)
+    if number == 0:
+        return "0"
+    if not like.startswith("$"):
+        return f"{number:.3e}"
+    power = floor(log10(abs(number)))
+    return f"${number / 10.0**power:.3f}" + (rf"\times10^{{{power}}}$" if power else "$")
+
+
+def _spectrum(document: Document, write: Writer) -> Section:
+    """Per region and N the frequency that tells most; regions that agree, together."""
+    claimed = any(r["predicted"] for g in document["regions"] for r in g["spectrum"])
+    rows: list[tuple[str, ...]] = []
+    for name, members in _grouped(document["regions"]):
         by_n: dict[int, list[Document]] = {}
-        for row in region["spectrum"]:
-            by_n.setdefault(row["n"], []).append(row)
-        for n, rows in by_n.items():
-            told = next((r for r in rows if r["agrees"] is False), rows[0])
-            outcome = {True: "agrees", False: "DISAGREES", None: ""}[told["agrees"]]
-            frequency = "(" + ", ".join(map(str, told["frequency"])) + ")"
-            predicted = "-" if told["predicted"] is None else f"{float(told['predicted']):.4g}"
-            yield (
-                region["region"],
-                str(n),
-                frequency,
-                number(told["scaled_power"]),
-                predicted,
-                outcome,
-            )
+        for region in members:
+            for row in region["spectrum"]:
+                by_n.setdefault(row["n"], []).append(row)
+        for n, found in by_n.items():
+            for label, told in _telling(name, found, len(members)):
+                measured = write(told["scaled_power"])
+                cells = [label, str(n), frequency_text(told["frequency"]), measured]
+                if claimed:
+                    outcome = {True: "yes", False: "NO", None: ""}[told["agrees"]]
+                    cells += [_exactly(told["predicted"], measured), outcome]
+                rows.append(tuple(cells))
+    head = ("region", "N", "frequency", "N·P_S measured [95 %]")
+    head += ("N·P_S claimed", "agrees") if claimed else ()
+    which = "nearest to disagreement" if claimed else "that is lowest"
+    title = (
+        f"Power spectrum P_S of the raw points at frequencies m, per region and N the one {which}"
+    )
+    return Section(title + "; N·P_S = 1 for independent points", head, rows, 1)
 
 
-def _variance_rows(document: Document) -> Iterator[tuple[str, ...]]:
+def _grouped(regions: Sequence[Document]) -> Iterator[tuple[str, list[Document]]]:
+    """Regions; those of one size on which nothing fails are joined where they are many."""
+    alike: dict[int, list[Document]] = {}
+    for g in regions:
+        if g["spectrum"] and all(r["agrees"] is not False for r in g["spectrum"]):
+            alike.setdefault(_size(g), []).append(g)
+    for g in regions:
+        members = alike.get(_size(g), [])
+        if g not in members or len(members) <= _MOST_ALIKE:
+            yield short(g["region"]), [g]
+        elif g is members[0]:
+            kind = {1: "axes", 2: "pairs"}.get(_size(g), f"supports of {_size(g)}")
+            yield f"{len(members)} {kind}", members
+
+
+def _size(region: Document) -> int:
+    return len(region["region"].split(","))
+
+
+def _telling(name: str, found: Sequence[Document], members: int) -> Iterator[tuple[str, Document]]:
+    """The row nearest to disagreement; without a claim the lowest frequency, or the extremes."""
+    if found[0]["predicted"] is not None:
+        yield name, max(found, key=_distance)
+        return
+    lowest = min(sum(map(abs, r["frequency"])) for r in found)
+    rows = [r for r in found if sum(map(abs, r["frequency"])) == lowest]
+    if members == 1:
+        yield name, rows[0]
+        return
+    rows.sort(key=lambda r: r["scaled_power"]["estimate"])
+    yield f"{name}, least", rows[0]
+    yield f"{name}, largest", rows[-1]
+
+
+def _distance(row: Document) -> tuple[bool, float]:
+    """Disagreements first; then the log of measured over claimed power, in interval widths."""
+    fails, power, predicted = row["agrees"] is False, row["scaled_power"], float(row["predicted"])
+    if not power or predicted <= 0 or power["low"] <= 0 or power["high"] is None:
+        return fails, inf if fails else 0.0
+    width = log(power["high"] / power["low"])
+    gap = abs(log(power["estimate"] / predicted))
+    return fails, gap / width if width else 0.0
+
+
+def _variances(document: Document, write: Writer) -> Section:
     rates = {r["integrand"]: r for r in document["rates"]}
+    claimed = any(p["exact"] for p in document["points"])
+    rows: list[tuple[str, ...]] = []
     last = ""
     for p in document["points"]:
-        name = p["integrand"]
-        rate = rates.get(name)
-        first = name != last
-        last = name
-        slope = number(rate["measured"]["slope"]) if rate and first else ""
-        yield (
-            name if first else "",
-            rate["region"] if rate and first else "",
-            str(p["n"]),
-            number(p["variance"]),
-            "-" if p["exact"] is None else f"{float(p['exact']):.5g}",
-            slope,
-            _theory(rate) if rate and first else "",
-        )
+        name, rate = p["integrand"], rates.get(p["integrand"])
+        first, last = name != last, name
+        shown = rate if first else None
+        variance = write(p["variance"])
+        cells = [short(name), short(rate["region"]) if rate else "", str(p["n"]), variance]
+        if claimed:
+            cells.append(_exactly(p["exact"], variance))
+        cells.append(_slope(shown["measured"]["slope"]) if shown else "")
+        if claimed:
+            cells.append(_asymptote(shown, write is _math) if shown else "")
+        rows.append(tuple(cells))
+    head = ["integrand", "region", "N", "variance [95 %]", *(["claimed"] if claimed else [])]
+    head += ["slope [95 %]", *(["slope, N -> oo"] if claimed else [])]
+    title = "Variance on randomly shifted points; slope: of the line through log variance by log N"
+    return Section(title, tuple(head), rows, 2)
 
 
-def _theory(rate: Document) -> str:
+def _slope(slope: Document | None) -> str:
+    if slope is None:
+        return "-"
+    high = "oo" if slope["high"] is None else f"{slope['high']:.2f}"
+    return f"{slope['estimate']:.2f} [{slope['low']:.2f}, {high}]"
+
+
+def _asymptote(rate: Document, latex: bool) -> str:
     exponent, power = rate["predicted"]["exponent"], rate["predicted"]["log_power"]
     if exponent is None:
         return "-"
     if exponent == "oo":
-        return "0"
-    log = "" if power == "0" else " log N" if power == "1" else f" (log N)^{power}"
-    return f"N^-{exponent}{log}" if "/" not in exponent else f"N^(-{exponent}){log}"
-
-
-def _claims(document: Document) -> Iterator[str]:
-    if not document["claims"]:
-        return
-    lines = ["Claims"]
-    for c in document["claims"]:
-        word = {True: "holds", False: "FAILS", None: "open"}[c["holds"]]
-        line = f"  {c['claim']}: {word}"
-        if c.get("exponents") and c["exponents"][0] is not None:
-            line += " (exponent in [{:.3f}, {:.3f}])".format(*c["exponents"])
-        lines.append(line)
-        if c["witness"]:
-            lines.append("    " + _witness(c["witness"]))
-    yield "\n".join(lines)
-
-
-def _witness(w: Document) -> str:
-    if w["what"] == "exponent":
-        return f"witness: chi² = {w['chi2']:.4g} beyond {w['threshold']:.4g}, drift allowed for"
-    at = w["at"] if isinstance(w["at"], str) else "m = (" + ", ".join(map(str, w["at"])) + ")"
-    place = f" on region {w['region']}" if w["region"] else ""
-    return (
-        f"witness{place}: {w['what']} at {at}, N = {w['n']}: measured {number(w['measured'])} at "
-        f"the decision level, the claim has {w['predicted']:.5g}"
-    )
+        return "no variance"
+    text = exponent[1:] if exponent.startswith("-") else f"-{exponent}"
+    logarithm = "" if power == "0" else ", log N" if power == "1" else f", (log N)^{power}"
+    return f"${text}${escaped(logarithm)}" if latex else text + logarithm
 
 
 def _ends(document: Document) -> Iterator[str]:
-    matches = document["matches"]
-    if not (document["claims"] and all("~" in c["claim"] for c in document["claims"])):
-        yield "Agrees with: " + (", ".join(matches) if matches else "no catalogue entry")
     budget = document["budget_needed_seconds"]
     if budget is not None:
-        yield f"Open claims would be decided with a budget of about {budget:.0f} s."
-    left = [f"  {x['what']}: {x['why']}" for x in document["left_out"]]
-    yield "Left out\n" + "\n".join(left)
+        yield f"Undecided claims need a budget of about {budget:.0f} s."
+    for x in document["left_out"]:
+        yield f"Left out, {x['what']}: {x['why']}"
     yield (
-        f"False alarms: at most {document['false_alarm']:.0e} for the whole check "
-        f"(level {document['level']:.1e} per test); equivalence margin {document['margin']:.0%}."
+        f"A correct claim is contradicted with probability at most {document['false_alarm']:.0e} "
+        f"(level {document['level']:.0e} per comparison); it holds where the interval lies "
+        f"within {document['margin']:.0%} of the claimed value."
     )

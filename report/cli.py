@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 DONE, CONTRADICTED, UNUSABLE, INCONCLUSIVE, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -28,7 +28,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = _parser().parse_args(arguments)
     from ..theory.errors import InputError
 
+    code = DONE
     try:
+        _check_writable(parsed.output)
         text, code = parsed.run(parsed)
         _write(text, parsed.output)
     except InputError as error:
@@ -39,8 +41,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:  # the reader, such as head, has closed
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
     return code
+
+
+def _check_writable(output: str | None) -> None:
+    """Refuse a file that cannot be written before time is spent on what goes there."""
+    if output is None:
+        return
+    from ..theory.errors import InputError
+
+    target = Path(output)
+    if target.is_dir() or not target.parent.is_dir():
+        raise InputError(f"--output must name a file in an existing directory: got {output}")
 
 
 def _write(text: str, output: str | None) -> None:
@@ -79,7 +91,7 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-Commands = "argparse._SubParsersAction[_Parser]"
+Commands: TypeAlias = "argparse._SubParsersAction[_Parser]"  # pyright: ignore[reportPrivateUsage]
 
 
 def _command(commands: Commands, name: str, run: Callable[..., object], about: str) -> _Parser:
@@ -150,9 +162,8 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     from ..numerics import check
     from .checks import render
 
-    document = check(
-        a.source, a.dim or 1, a.claim, a.integrand, a.n, a.budget, a.seed, a.plan, _progress
-    )
+    dim = 1 if a.dim is None else a.dim  # a plan names its own
+    document = check(a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed, a.plan, _progress)
     verdicts = {"consistent": DONE, "contradicted": CONTRADICTED, "invalid": CONTRADICTED}
     code = (
         INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)

@@ -1,5 +1,8 @@
 """Text is parsed to exact expressions and never evaluated."""
 
+from contextlib import suppress
+from fractions import Fraction
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -82,12 +85,8 @@ def test_anything_else_is_one_line_of_complaint(text):
 
 @given(st.text(max_size=30))
 def test_no_text_breaks_the_parser(text):
-    try:
-        value = parse_expression(text, SYMBOLS)
-    except InputError as error:
-        assert "\n" not in str(error)
-    else:
-        assert value.free_symbols <= {d, w}
+    with suppress(InputError):
+        assert parse_expression(text, SYMBOLS).free_symbols <= {d, w}
 
 
 trees = st.recursive(
@@ -104,8 +103,6 @@ trees = st.recursive(
 @given(trees, st.integers(1, 9), st.integers(1, 9))
 def test_values_are_those_of_exact_arithmetic(text, at_d, at_w):
     """Against Python's own reading of the same text with fractions in place of numbers."""
-    from fractions import Fraction
-
     try:
         expected = eval(
             text.replace("0.5", "F(1, 2)").replace("/", "/F(1)/"),

@@ -10,8 +10,6 @@ series, relative N^-2(edge − x) or so. With log N > 500 and x at most three qu
 the quotient is E(x) to well within the tolerance.
 """
 
-from itertools import pairwise
-
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -88,3 +86,169 @@ def test_exponents_of_profiles_are_those_of_the_spectrum(sampler, data):
 def _is_silent(sampler, direction, x, log10_n):
     """Below the first alias a comb is exactly zero."""
     assert measured(sampler, direction, x, log10_n) == -mp.inf
+
+
+def local_slope(sampler, direction, x, log10_n):
+    """d log(N·P) / d log|m| between a frequency and its double."""
+    with mp.workdps(3 * log10_n + DIGITS):
+        n = mp.mpf(10) ** log10_n
+        counts = counts_by_growth(sampler.layout, n)
+        scale = mp.power(n, mp.mpf(x.p) / x.q)
+        m = [int(mp.nint(c * scale)) for c in direction]
+    with mp.workdps(DIGITS):
+        once, twice = (scaled_power(sampler, counts, [k * c for c in m]) for k in (1, 2))
+        return mp.log(twice / once) / mp.log(2)
+
+
+@given(samplers(), st.data())
+def test_degree_is_the_local_slope_in_frequency(sampler, data):
+    """At fixed N the spectrum rises as |m|^b, b the degree of the monomial on top at |m| = N^x."""
+    support = data.draw(supports(sampler), label="support")
+    profile = profile_of(sampler, region_of_support(sampler.layout, support))
+    edge = edge_of(profile)
+    assume(edge > 0 and any(m.degree is not sympy.oo for m in profile))
+    x = edge * Rational(1, 2)
+    lines = sorted(
+        (m.degree * (x - m.effective), m.degree) for m in profile if m.degree is not sympy.oo
+    )
+    assume(len(lines) == 1 or lines[-1][0] - lines[-2][0] > Rational(1, 20))
+    direction = [int(i + 1 in support) for i in range(int(sampler.dim))]
+    log10_n = max(480, int(24 / edge))  # the other lines are 10^-24 of the top one
+    assert local_slope(sampler, direction, x, log10_n) == pytest.approx(
+        float(lines[-1][1]), abs=TOLERANCE
+    )
+
+
+def line(degree, decay):
+    powers = Powers((((1,) if degree == 2 else (1, 1) if degree == 4 else ()),))
+    return SeriesTerm(powers, Integer(degree), sympy.sympify(decay), Integer(1))
+
+
+def vertices(*terms, combs=()):
+    found = newton_polygon(Series((Integer(2),), terms, combs), ())
+    return [(m.degree, m.effective) for m in found]
+
+
+def test_polygon_keeps_what_reaches_the_upper_envelope():
+    """|m|²/N² and m⁴/N² cross at |m| = 1; the second saturates first, at N^(1/2)."""
+    assert vertices(line(2, 2), line(4, 2)) == [(2, 1), (4, Rational(1, 2))]
+
+
+def test_polygon_drops_what_is_hidden():
+    assert vertices(line(2, 1), line(4, 2)) == [(2, Rational(1, 2))]
+    assert vertices(line(2, 1), line(2, 2)) == [(2, Rational(1, 2))]
+    assert vertices(line(0, 0), line(2, 1)) == [(0, 0)]
+
+
+def test_polygon_joins_terms_of_one_line():
+    two = SeriesTerm(Powers(((2,),)), Integer(4), Integer(2), Integer(3))
+    (found,) = newton_polygon(Series((Integer(2),), (line(4, 2), two), ()), ())
+    assert len(found.form) == 2
+    # means over the circle: m_1² m_2² = 1/8, m_1⁴ + m_2⁴ = 3/4
+    assert found.coefficient == Rational(1, 8) + 3 * Rational(3, 4)
+
+
+def test_a_comb_is_a_step_unless_a_saturated_monomial_covers_it():
+    step = Comb(Rational(1, 2), Integer(0), Integer(1))
+    assert vertices(combs=(step,)) == [(sympy.oo, Rational(1, 2))]
+    assert vertices(line(2, 1), combs=(step,)) == [(2, Rational(1, 2))]
+    high = Comb(Rational(1, 2), Rational(1, 2), Integer(1))
+    assert vertices(line(2, 1), combs=(high,))[1] == (sympy.oo, Rational(1, 2))
+    early = Comb(Rational(1, 3), Integer(0), Integer(1))
+    assert vertices(line(2, 1), combs=(early, early)) == [
+        (2, Rational(1, 2)),
+        (sympy.oo, Rational(1, 3)),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "dim", "support", "expected"),
+    [
+        ("random", 3, (1, 2), {(0, 0)}),
+        ("jitter", 3, (1,), {(2, Rational(1, 3))}),
+        ("jitter", 3, (1, 2, 3), {(2, Rational(1, 3))}),
+        ("jitter:N^1/3xN^2/3", 2, (1,), {(2, Rational(1, 3))}),
+        ("jitter:N^1/3xN^2/3", 2, (2,), {(2, Rational(2, 3))}),
+        ("jitter:N^1/3xN^2/3", 2, (1, 2), {(2, Rational(1, 3))}),
+        ("latin-hypercube", 4, (3,), {(2, 1)}),
+        ("latin-hypercube", 4, (1, 3), {(0, 0)}),
+        ("multi-jitter", 2, (1,), {(2, 1)}),
+        ("multi-jitter", 2, (1, 2), {(2, Rational(1, 2))}),
+        ("multi-jitter", 3, (1, 2), {(2, Rational(1, 3))}),
+        ("correlated-multi-jitter", 2, (1,), {(2, 1)}),
+        ("correlated-multi-jitter", 2, (1, 2), {(2, 1), (4, Rational(1, 2))}),
+        (
+            "correlated-multi-jitter:N^1/3xN^2/3",
+            2,
+            (1, 2),
+            {(2, 1), (4, Rational(1, 2)), (sympy.oo, Rational(1, 3))},
+        ),
+        ("uncorrelated-jitter:1+2+3", 6, (2, 3), {(2, Rational(1, 2))}),
+        ("uncorrelated-jitter:1+2+3", 6, (4,), {(2, Rational(1, 3))}),
+        ("uncorrelated-jitter:1+2+3", 6, (1, 2), {(0, 0)}),
+        ("regular", 2, (1,), {(sympy.oo, Rational(1, 2))}),
+        ("regular", 2, (1, 2), {(sympy.oo, Rational(1, 2))}),
+    ],
+)
+def test_known_profiles(name, dim, support, expected):
+    sampler = parse_sampler(name, dim)
+    profile = profile_of(sampler, region_of_support(sampler.layout, support))
+    assert {(m.degree, m.effective) for m in profile} == expected
+
+
+def test_coefficients_of_jitter_and_correlated_multi_jitter():
+    """N·P = (π²/3)|m|²/n²; and (π²/3)|m|²/N² + (π⁴/9) m_1² m_2²/N², in the mean π⁴/72."""
+    jitter = parse_sampler("jitter", 2)
+    for region in regions(jitter.layout):
+        (monomial,) = profile_of(jitter, region)
+        assert monomial.coefficient == sympy.pi**2 / 3
+        assert sympy.simplify(monomial.alpha - sympy.sqrt(3) / sympy.pi) == 0
+    correlated = parse_sampler("correlated-multi-jitter", 2)
+    found = profile_of(correlated, region_of_support(correlated.layout, (1, 2)))
+    assert {m.degree: m.coefficient for m in found} == {
+        2: sympy.pi**2 / 3,
+        4: sympy.pi**4 / 72,
+    }
+
+
+def test_steps_know_their_first_alias_and_plateau():
+    """Strata 4 × N: teeth on axis 1 at multiples of 4, of mean height N/4; on axis 2 of N/4."""
+    sampler = parse_sampler("regular:4xN", 2)
+    (first,), (second,) = (
+        profile_of(sampler, region_of_support(sampler.layout, (i,))) for i in (1, 2)
+    )
+    assert (first.effective, first.scale) == (0, 4)
+    assert (first.plateau_exponent, first.plateau) == (1, Rational(1, 4))
+    assert (second.effective, second.scale) == (1, Rational(1, 4))
+    assert (second.plateau_exponent, second.plateau) == (0, 4)
+
+
+@pytest.mark.parametrize(
+    ("b", "e", "q", "expected"),
+    [
+        (2, Rational(1, 2), 1, Order(Rational(3, 2))),
+        (2, Rational(1, 2), 2, Order(Integer(2), Integer(1))),
+        (2, Rational(1, 2), sympy.oo, Order(Integer(2))),
+        (0, 0, 3, Order(Integer(1))),
+        (2, 0, 2, Order(Integer(1))),
+        (sympy.oo, Rational(1, 2), 3, Order(Rational(5, 2))),
+        (sympy.oo, Rational(1, 2), sympy.oo, Order(sympy.oo)),
+        (1, Rational(1, 3), 1, Order(Rational(4, 3), Integer(1))),
+    ],
+)
+def test_order_of_a_monomial(b, e, q, expected):
+    monomial = SaturatingMonomial(sympy.sympify(b), sympy.sympify(e))
+    assert saturated_order(monomial, sympy.sympify(q), ()) == expected
+    assert monomial.order_at(sympy.sympify(q)) == expected
+
+
+def test_ties():
+    d, w = symbol("d"), symbol("w")
+    known = (Range(d, Integer(2)),)
+    assert tie(Integer(2), Integer(2), known) == 1
+    assert tie(Integer(2), Integer(1), known) == 0
+    assert tie(Integer(2), d + 1, known) == 0
+    assert tie(Integer(2), d, known) == sympy.KroneckerDelta(2, d)
+    between = (Range(w, Integer(2)), Range(d, w + 1))
+    assert tie(Integer(2), d + 1 - w, between).xreplace({w: Integer(4), d: Integer(5)}) == 1
+    assert tie(Integer(2), d + 1 - w, between).xreplace({w: Integer(3), d: Integer(5)}) == 0

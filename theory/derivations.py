@@ -5,18 +5,33 @@ Each region's steps follow the paper's Eqs. 19-23: the exact spectrum, its low-f
 term. The last step adds the regions up as Eqs. 24-27 do. Where the paper errs the step says so.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .decays import Decay, parse_decay
-from .orders import Case
+from .integrals import integral_latex, integral_text, raised, raised_latex
+from .orders import Case, Order
 from .primitives import Primitive, parse_primitive, sampled_dimension
 from .profiles import SaturatingMonomial
 from .radial import N, Radial, closed_form, leading
 from .rates import RegionRate, overall, region_rates, saturated
 from .regions import select
 from .samplers import Sampler, parse_sampler
-from .spelling import factor_names, spectrum_latex, spectrum_text
+from .spelling import (
+    big_o,
+    cases_latex,
+    condition_text,
+    count_names,
+    expression_latex,
+    expression_text,
+    factor_names,
+    label_latex,
+    order_latex,
+    order_text,
+    spectrum_latex,
+    spectrum_text,
+)
 from .symbolic import Expr, Integer, sympy
 from .tables import joined_regions, parse_dim
 
@@ -80,7 +95,7 @@ def derive(
     found = parse_sampler(sampler, sampled_dimension(kind, whole))
     chosen = {r.counts for r in select(found.layout, region)}
     rates = tuple(r for r in region_rates(found, decay, kind) if r.region.counts in chosen)
-    joined = list(joined_regions(found, rates))
+    joined = [(name, members[-1]) for name, members in joined_regions(found, rates)]
     steps: list[Step] = []
     for name, rate in joined:
         steps += _region_steps(found, decay, name, rate)
@@ -100,12 +115,14 @@ def _results(sampler: Sampler, rates: tuple[RegionRate, ...], region: str) -> tu
 
 def _region_steps(sampler: Sampler, decay: Decay, name: str, rate: RegionRate) -> Iterator[Step]:
     if sampler.kernel is not None:
+        spectrum = spectrum_text(sampler, rate.region)
         yield Step(
             name,
             "Eq. 5" if sampler.family in ("random", "jitter") else "Eq. 5, for this sampler",
-            spectrum_text(sampler, rate.region),
+            spectrum,
             spectrum_latex(sampler, rate.region),
-            f"exact expected power spectrum on this region ({sampler.reference}){_laws(sampler)}",
+            "exact expected power spectrum on this region "
+            f"({sampler.reference}){_laws(sampler, spectrum)}",
         )
     for monomial in saturated(sampler, rate):
         if monomial.degree is sympy.oo:
@@ -116,13 +133,14 @@ def _region_steps(sampler: Sampler, decay: Decay, name: str, rate: RegionRate) -
             yield from _integral_steps(name, rate, monomial)
 
 
-def _laws(sampler: Sampler) -> str:
-    """How the counts in the spectrum grow, where they are not N itself."""
-    assert sampler.kernel is not None
+def _laws(sampler: Sampler, spectrum: str) -> str:
+    """How the counts that stand in the spectrum grow, where they are not N itself."""
+    spelled = count_names(sampler)
+    words = set(re.findall(r"\w+", spectrum))
     laws = [
-        f"{name} = {law.constant * N**law.exponent}"
+        f"{spelled[name]} = {expression_text(law.constant * N**law.exponent)}"
         for name, law in sampler.layout.growth.items()
-        if name != "N"
+        if name != "N" and spelled[name] in words
     ]
     return f"; {', '.join(laws)}" if laws else ""
 
@@ -131,28 +149,41 @@ def _profile_step(
     sampler: Sampler, name: str, rate: RegionRate, monomial: SaturatingMonomial
 ) -> Step:
     b, e = monomial.degree, monomial.effective
-    power = f"N^({e})" if e != 1 else "N"
-    head = f"b = {b}, N_k = {power if e != 0 else '1'}"
+    head = f"b = {b}, N_k = {expression_text(N**e)}"
+    head_latex = rf"b={expression_latex(b)},\ N_k={expression_latex(N**e)}"
     if monomial.coefficient is None:
-        text = f"N P_S = gamma min(1, (rho/(alpha N_k))^b), {head}"
-        latex = rf"N P_S = \gamma\min\left(1,(\rho/(\alpha N_k))^{{b}}\right),\ b={sympy.latex(b)}"
+        free = f"b free, N_k = {expression_text(N**e)}" if b.is_Symbol else head
+        text = f"N P_S = gamma min(1, (rho/(alpha N_k))^{b}), {free}"
+        saturating = rf"\left(\frac{{\rho}}{{\alpha N_k}}\right)^{{{expression_latex(b)}}}"
+        latex = (
+            rf"N P_S = \gamma\min\left(1,{saturating}\right),"
+            rf"\quad N_k={expression_latex(N**e)}"
+        )
         return Step(name, "Eq. 18", text, latex, "the profile is given, not derived")
+    constant = expression_text(monomial.coefficient)
     if b == 0:
-        text = f"N P_S ~ {monomial.coefficient}: b = 0, gamma = {monomial.coefficient}"
-        latex = rf"N P_S \sim {sympy.latex(monomial.coefficient)}"
+        text = f"N P_S ~ {constant}: b = 0, gamma = {constant}"
+        latex = rf"N P_S \sim {expression_latex(monomial.coefficient)},\quad b=0"
         return Step(name, "Eq. 18", text, latex, "flat from the lowest frequency on")
-    form = " + ".join(f"({c}) {p.text(factor_names(sampler))}" for p, c in monomial.form)
-    fall = sympy.expand(-e * b)
-    text = f"N P_S ~ [{form}] N^({fall}): {head}, gamma/alpha^b = {monomial.coefficient}"
+    names = factor_names(sampler)
+    form = " + ".join(f"{_factor(c)} {p.text(names)}" for p, c in monomial.form)
+    if len(monomial.form) > 1:
+        form = f"[{form}]"
+    fall = Order(sympy.expand(e * b))
+    text = f"N P_S ~ {form} {order_text(fall)}: {head}, gamma/alpha^b = {constant}"
     latex = (
-        rf"N P_S \sim {sympy.latex(monomial.coefficient)}\,\rho^{{{sympy.latex(b)}}}"
-        rf"N^{{{sympy.latex(sympy.expand(-e * b))}}}"
+        rf"N P_S \sim {expression_latex(monomial.coefficient)}\,\rho^{{{expression_latex(b)}}}"
+        rf"{order_latex(fall)},\quad {head_latex}"
     )
     reason = (
         "low-frequency series of the exact spectrum, a vertex of its Newton polygon; "
         "gamma/alpha^b is its mean over directions"
     )
     return Step(name, "Eq. 18", text, latex, reason)
+
+
+def _factor(constant: Expr) -> str:
+    return f"({expression_text(constant)})"
 
 
 def _integrand_step(decay: Decay, name: str, rate: RegionRate) -> Step:
@@ -162,8 +193,9 @@ def _integrand_step(decay: Decay, name: str, rate: RegionRate) -> Step:
         latex = r"P_f = c_f\ (\rho<\rho_0),\quad 0\ (\rho\ge\rho_0)"
         return Step(name, "Eq. 16", text, latex, f"{decay.name}: low frequencies decide")
     p = sympy.expand(s + q)
-    text = f"P_f = c_f for rho < rho_0, c_f rho^-({p}) beyond; s = {s}, q = p - s = {q}"
-    latex = rf"P_f = c_f\ (\rho<\rho_0),\quad c_f\,\rho^{{-({sympy.latex(p)})}}\ (\rho\ge\rho_0)"
+    fall = raised("rho", -p)
+    text = f"P_f = c_f for rho < rho_0, c_f {fall} beyond; s = {s}, p = {p}, q = p - s = {q}"
+    latex = rf"P_f = c_f\ (\rho<\rho_0),\quad c_f\,{raised_latex(-p)}\ (\rho\ge\rho_0)"
     reason = f"{decay.name} on a region of dimension s: shells [rho, 2 rho) hold energy rho^-q"
     if s != 1 and decay.family == "worst":
         reason += " (p = s + 1 on the region)"
@@ -182,116 +214,87 @@ def _problem(rate: RegionRate, monomial: SaturatingMonomial) -> Radial:
 def _integral_steps(name: str, rate: RegionRate, monomial: SaturatingMonomial) -> Iterator[Step]:
     problem = _problem(rate, monomial)
     best = rate.q is sympy.oo
-    text = f"V = (gamma/N) [{' + '.join(_pieces(problem, best))}]"
+    text = integral_text(problem, best)
     if problem.degree != 0:
-        text += f", nu = alpha N_k = {problem.alpha * N**problem.effective}"
+        text += f", nu = alpha N_k = {expression_text(problem.alpha * N**problem.effective)}"
     yield Step(
         name,
         "Eq. 22" if best else "Eq. 19",
         text,
-        _integral_latex(problem, best),
+        integral_latex(problem, best),
         "Eqs. 16 and 18 put into Eq. 17; the Jacobian on the region is rho^(s-1), not rho^(d-1)",
     )
-    for tied, condition in _ties(problem, rate):
+    for tied, sides in _ties(problem, rate):
         found = closed_form(problem, True, tied)
-        where = f" if {condition}" if condition else ""
-        yield Step(
-            name,
-            "Eq. 22" if best else "Eq. 20",
-            f"V = {found}{where}",
-            rf"V = {sympy.latex(found)}",
-            "the power rule on each piece"
-            + ("; b = q makes the middle one a logarithm" if tied else "")
-            + ", for rho_0 <= nu",
-        )
+        relation = ("=", "=") if tied else ("!=", r"\ne ")
+        inside = found * N / problem.gamma
+        front = rf"\frac{{{expression_latex(problem.gamma)}}}{{N}}"
+        text = f"V = ({expression_text(problem.gamma)}/N) [{expression_text(inside)}]"
+        latex = rf"V = {front}\left[{expression_latex(inside)}\right]"
+        if sides:
+            degree, q = sides
+            text += f" if {expression_text(degree)} {relation[0]} {expression_text(q)}"
+            latex += rf"\quad({expression_latex(degree)}{relation[1]}{expression_latex(q)})"
+        reason = "the power rule on each piece"
+        if tied:
+            reason += "; b = q makes the middle one a logarithm"
+        if problem.degree != 0:
+            reason += ", for rho_0 <= nu"
+        yield Step(name, "Eq. 22" if best else "Eq. 20", text, latex, reason)
     yield _leading_step(name, rate, monomial, problem)
 
 
-def _pieces(problem: Radial, best: bool) -> list[str]:
-    """The integrals of Eq. 17 between the breaks 0, rho_0, nu, oo, as text."""
-    rho = "" if problem.dimension == 1 else f"{_raised('rho', problem.dimension - 1)} "
-    falling = f" {_raised('rho', -problem.decay)}"
-    if problem.degree == 0:
-        whole = [f"int_0^rho_0 {rho}c_f d rho", f"int_rho_0^oo {rho}c_f{falling} d rho"]
-        return whole[:1] if best else whole
-    rising = _raised("(rho/nu)", problem.degree)
-    low = f"int_0^rho_0 {rho}{rising} c_f d rho"
-    middle = f"int_rho_0^nu {rho}{rising} c_f{falling} d rho"
-    return [low] if best else [low, middle, f"int_nu^oo {rho}c_f{falling} d rho"]
-
-
-def _raised(base: str, power: Expr) -> str:
-    if power == 1:
-        return base
-    return f"{base}^{power}" if power.is_Atom and power.is_positive else f"{base}^({power})"
-
-
-def _ties(problem: Radial, rate: RegionRate) -> list[tuple[bool | None, str]]:
-    """Whether b = q; both ways, with their conditions, where a symbol decides."""
+def _ties(problem: Radial, rate: RegionRate) -> list[tuple[bool | None, tuple[Expr, Expr] | None]]:
+    """Whether b = q; both ways, with the sides b and q, where a symbol decides."""
     gap = sympy.oo if rate.q is sympy.oo else problem.degree - rate.q
     if rate.q is sympy.oo or gap.is_number:
-        return [(None, "")]
+        return [(None if rate.q is sympy.oo or gap != 0 else True, None)]
     assert rate.order is not None
     if rate.order.log_power.is_Integer:
-        return [(bool(rate.order.log_power == 1), "")]
-    return [(False, f"{problem.degree} != {rate.q}"), (True, f"{problem.degree} = {rate.q}")]
+        return [(bool(rate.order.log_power == 1), None)]
+    sides = (problem.degree, rate.q)
+    return [(False, sides), (True, sides)]
 
 
 def _leading_step(
     name: str, rate: RegionRate, monomial: SaturatingMonomial, problem: Radial
 ) -> Step:
     order = monomial.order_at(rate.q, rate.region.assumptions)
-    text, latex = f"V = Theta({order})", rf"V = \Theta({order.latex()})"
+    text, latex = f"V = Theta({order_text(order)})", rf"V = \Theta({order_latex(order)})"
     if rate.q is sympy.oo or (problem.degree - rate.q).is_number:
         found = leading(problem, rate.region.assumptions)
         if found is not None:
-            constant = f"({found.constant})" if found.constant.is_Add else f"{found.constant}"
-            text = f"V ~ {constant} * {found.order}"
-            latex = rf"V \sim {sympy.latex(found.constant)}\,{found.order.latex()}"
-    reason = "leading term: exponent 1 + e min(b, q)"
+            bracket = found.constant.is_Add
+            constant, constant_latex = _factor(found.constant), expression_latex(found.constant)
+            text = f"V ~ {constant} {order_text(found.order)}"
+            if bracket:
+                constant_latex = rf"\left({constant_latex}\right)"
+            latex = rf"V \sim {constant_latex}\,{order_latex(found.order)}"
+    reason = "leading term: exponent 1 + e min(b, q), with N_k = N^e"
     if order.log_power != 0:
-        reason += ", with a logarithm at the tie b = q"
+        reason += ", and a logarithm at the tie b = q"
     return Step(name, "Eq. 23" if rate.q is sympy.oo else "Eq. 21", text, latex, reason)
-
-
-def _integral_latex(problem: Radial, best: bool) -> str:
-    b, s = sympy.latex(problem.degree), sympy.latex(problem.dimension - 1)
-    low = rf"\int_0^{{\rho_0}}\rho^{{{s}}}\left(\frac{{\rho}}{{\nu}}\right)^{{{b}}}c_f\,d\rho"
-    if best:
-        return rf"V = \frac{{\gamma}}{{N}}{low}"
-    p = sympy.latex(problem.decay)
-    middle = (
-        rf"\int_{{\rho_0}}^{{\nu}}\rho^{{{s}}}\left(\frac{{\rho}}{{\nu}}\right)^{{{b}}}"
-        rf"\frac{{c_f}}{{\rho^{{{p}}}}}\,d\rho"
-    )
-    high = rf"\int_{{\nu}}^{{\infty}}\rho^{{{s}}}\frac{{c_f}}{{\rho^{{{p}}}}}\,d\rho"
-    return rf"V = \frac{{\gamma}}{{N}}\left[{low}+{middle}+{high}\right]"
 
 
 def _alias_steps(name: str, rate: RegionRate, step: SaturatingMonomial) -> Iterator[Step]:
     order = step.order_at(rate.q, rate.region.assumptions)
+    first = expression_text(step.scale * N**step.effective)
     if rate.q is sympy.oo:
-        text = f"V = 0 once the first alias N^({step.effective}) lies beyond rho_0"
-        latex = rf"V = 0,\quad N^{{{sympy.latex(step.effective)}}}>\rho_0"
+        text = f"V = 0 once the first alias {first} lies beyond rho_0"
+        latex = rf"V = 0,\quad {expression_latex(step.scale * N**step.effective)}>\rho_0"
         yield Step(name, "Eq. 22", text, latex, "a comb has no power below its first alias")
         return
     p = sympy.expand(rate.region.dimension + rate.q)
-    text = f"V = sum over aliases of c_f |m|^-({p}) = Theta({order})"
+    text = f"V = sum over aliases m of c_f {raised('|m|', -p)} = Theta({order_text(order)})"
     latex = (
-        rf"V = \sum_{{m \in \mathrm{{aliases}}}} c_f|m|^{{-({sympy.latex(p)})}}"
-        rf" = \Theta({order.latex()})"
+        rf"V = \sum_{{m \in \mathrm{{aliases}}}} c_f\,|m|^{{{expression_latex(-p)}}}"
+        rf" = \Theta({order_latex(order)})"
     )
     reason = (
-        f"a comb has no monomial profile (erratum to Eq. 18): below |m| = N^({step.effective}) it "
-        f"is 0, above it N P_S = N^({step.plateau_exponent}) in the mean"
+        f"a comb has no monomial profile (erratum to Eq. 18): it is 0 below the first alias {first}"
+        f", above it N P_S is of order {expression_text(N**step.plateau_exponent)} in the mean"
     )
     yield Step(name, "Eq. 17", text, latex, reason)
-
-
-def latex_label(name: str) -> str:
-    """A region's name for LaTeX text mode."""
-    text = name.replace("{", r"\{").replace("}", r"\}")
-    return text.replace("<", "$<$").replace("..", r"\ldots ")
 
 
 def _sum_step(
@@ -301,12 +304,11 @@ def _sum_step(
     results: tuple[Case, ...],
 ) -> Step:
     terms = [(n, r.order) for n, r in joined if r.order is not None]
-    text = " + ".join(f"O({o}) [{n}]" for n, o in terms) or "0"
-    latex = " + ".join(
-        rf"\overbrace{{\mathcal{{O}}({o.latex()})}}^{{\text{{{latex_label(n)}}}}}" for n, o in terms
-    )
+    text = " + ".join(f"{_big_o_text(o)} [{n}]" for n, o in terms) or "0"
+    latex = " + ".join(rf"\overbrace{{{big_o(o)}}}^{{\text{{{label_latex(n)}}}}}" for n, o in terms)
     ends = "; ".join(
-        f"O({c.order})" + (f" for {c.condition}" if c.condition is not None else "")
+        _big_o_text(c.order)
+        + (f" for {condition_text(c.condition)}" if c.condition is not None else "")
         for c in results
     )
     equation = (
@@ -317,11 +319,14 @@ def _sum_step(
     return Step(
         "overall",
         equation,
-        f"Var = {text} = {ends}",
-        rf"\mathrm{{Var}} = {latex or '0'} = "
-        + r";\ ".join(rf"\mathcal{{O}}({c.order.latex()})" for c in results),
+        f"Var(I_N) = {text} = {ends}",
+        rf"\mathrm{{Var}}(I_N) = {latex or '0'} = {cases_latex(results)}",
         "sum over supports; the slowest of the regions with power decides",
     )
+
+
+def _big_o_text(order: Order) -> str:
+    return "0" if order.exponent is sympy.oo else f"O({order_text(order)})"
 
 
 def document(found: Derivation) -> dict[str, object]:

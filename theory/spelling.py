@@ -9,6 +9,8 @@ from .regions import Region
 from .samplers import Sampler
 from .symbolic import Expr, FracElement, sympy
 
+_INDICES = "ijklpq"  # of one axis each in several groups
+
 _RELATIONS = {">=": r"\ge", "<=": r"\le", ">": ">", "<": "<", "==": "=", "!=": r"\ne"}
 
 
@@ -139,7 +141,8 @@ def _term(sampler: Sampler, term: Term, counts: tuple[Expr, ...], latex: bool) -
             coefficient, factor = coefficient / under, Factor(tuple(terms))
             if len(terms) == 1:
                 coefficient, factor = coefficient * terms[0][0], _unit(factor)
-        pieces.append(_product(sampler, group, factor, single, latex))
+        axis = _axis(sampler, counts, group)
+        pieces.append(_product(sampler, group, factor, axis, latex))
     return _scaled(sampler, coefficient, [p for p in pieces if p], latex)
 
 
@@ -168,13 +171,26 @@ def _scaled(sampler: Sampler, coefficient: FracElement, pieces: list[str], latex
     return f"{sign}{front}{body}/{_bracketed(spell(under), under)}"
 
 
-def _product(sampler: Sampler, group: int, factor: Factor, single: bool, latex: bool) -> str:
+def _axis(sampler: Sampler, counts: tuple[Expr, ...], group: int) -> str | None:
+    """Index of the one axis that a support takes from a group; None if it takes more."""
+    place = sampler.layout.groups[group]
+    if place.size == 1:
+        return str(place.first)
+    if counts[group] != 1:
+        return None
+    ambiguous = (
+        sum(c != 0 and g.size != 1 for c, g in zip(counts, sampler.layout.groups, strict=True)) > 1
+    )
+    return _INDICES[group % len(_INDICES)] if ambiguous else "i"
+
+
+def _product(sampler: Sampler, group: int, factor: Factor, axis: str | None, latex: bool) -> str:
     """One group's factor: on its one axis, or as a product over the axes of the support in it."""
     place = sampler.layout.groups[group]
-    axis = str(place.first) if place.size == 1 else "i"
+    index = axis or "i"
     over, under = _over_one_denominator(factor)
     inside = [
-        _scaled(sampler, c, [_atom(sampler, a, axis, latex)] if a != Atom() else [], latex)
+        _scaled(sampler, c, [_atom(sampler, a, index, latex)] if a != Atom() else [], latex)
         for c, a in over
     ]
     body = " + ".join(inside).replace("+ -", "- ")
@@ -186,7 +202,7 @@ def _product(sampler: Sampler, group: int, factor: Factor, single: bool, latex: 
     if latex:
         closed = closed or body.startswith(r"\frac")
     brackets = (r"\left[", r"\right]") if latex else ("[", "]")
-    if single or place.size == 1:
+    if axis is not None:
         return body if len(inside) == 1 else body.join(brackets)
     return _over_axes(sampler, place.coordinates, latex) + (body if closed else body.join(brackets))
 

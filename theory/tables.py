@@ -24,8 +24,7 @@ class Row:
     """One row: variance ~ constant · N^-exponent (log N)^log_power on a region.
 
     ``constant`` is that of the monomial model of Eq. 17 in c_f and ρ0, or None. ``dominated`` says
-    that another row of the same sampler and class is at least as slow. ``condition`` restricts
-    the symbols (None: none).
+    that the region falls faster than the whole. ``condition`` restricts the symbols (None: none).
     """
 
     sampler: str
@@ -137,21 +136,24 @@ def _rows(
 ) -> Iterator[Row]:
     cases = overall(rates, sampler.layout.assumptions)
     head = (sampler.name, dim, kind.name, decay.name)
-    joined = list(joined_regions(sampler, rates))
     top = cases[0].order
-    for index, (region, rate) in enumerate(joined):
-        order = rate.order
-        if order is None:
-            continue
-        is_top = (
-            len(cases) == 1 and (order == top) and all(r.order != top for _, r in joined[:index])
-        )
-        dominated = not is_top and len(cases) == 1 and _is_dominated(rate, top, rates)
-        found = leading_constant(sampler, rate, decay) if constants else None
-        constant = found.constant if found else None
+    for region, members in joined_regions(sampler, rates):
+        order = members[0].order
+        assert order is not None
+        dominated = len(cases) == 1 and order != top and _is_dominated(members[0], top, rates)
+        constant = _common_constant(sampler, members, decay) if constants else None
         yield Row(*head, region, order, constant, False, dominated)
     for case in cases:
         yield Row(*head, "overall", case.order, None, True, False, case.condition)
+
+
+def _common_constant(
+    sampler: Sampler, members: tuple[RegionRate, ...], decay: Decay
+) -> Expr | None:
+    """The leading constant that joined regions share; None where each has its own."""
+    found = [leading_constant(sampler, m, decay) for m in members]
+    constants = {None if f is None else f.constant for f in found}
+    return constants.pop() if len(constants) == 1 else None
 
 
 def _is_dominated(rate: RegionRate, top: Order, rates: tuple[RegionRate, ...]) -> bool:
@@ -170,8 +172,8 @@ def _left_out(sampler: Sampler, decay: Decay, rates: tuple[RegionRate, ...]) -> 
 
 def joined_regions(
     sampler: Sampler, rates: tuple[RegionRate, ...]
-) -> Iterator[tuple[str, RegionRate]]:
-    """(name, rate) of the regions with power, those of one class joined where they agree."""
+) -> Iterator[tuple[str, tuple[RegionRate, ...]]]:
+    """(name, rates) of the regions with power, those of one class joined where they agree."""
     classes: dict[str, list[RegionRate]] = {}
     for rate in rates:
         if rate.order is not None:
@@ -179,9 +181,9 @@ def joined_regions(
     for name, members in classes.items():
         first = members[0]
         if all(_alike(first, m) for m in members):
-            yield name, members[-1]
+            yield name, tuple(members)
         else:
-            yield from ((m.region.label, m) for m in members)
+            yield from ((m.region.label, (m,)) for m in members)
 
 
 def _alike(first: RegionRate, second: RegionRate) -> bool:

@@ -126,7 +126,7 @@ def _counts(
     power = lcm(*[sum(s.powers) for s in strata])
 
     def counts(n: int) -> Mapping[str, int]:
-        t = nearest_root(n, 1, power)
+        t = max(2, nearest_root(n, 1, power))  # pairs of points need two
         found = {"N": t**power}
         for (_, names), s in zip(members, strata, strict=True):
             root = t ** (power // sum(s.powers))

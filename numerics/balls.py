@@ -1,0 +1,92 @@
+"""Ball arithmetic: exact input, and as many certified digits as asked for.
+
+A ball is a number with a proven bound on its error (python-flint's ``arb``). Input is exact,
+a fraction or a power of ten, and is made a ball anew at each precision; ``certified`` raises the
+precision until the digits stand, so that cancellation costs time and never digits.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, log2
+from typing import Any, TypeAlias
+
+import flint as _flint  # pyright: ignore[reportMissingTypeStubs]
+
+from ..theory.errors import InputError
+
+flint: Any = _flint
+"""The python-flint module, which carries no types."""
+
+Ball: TypeAlias = Any
+"""A real ball, ``flint.arb``."""
+
+_MOST_BITS = 1 << 20
+
+
+@dataclass(frozen=True)
+class Certified:
+    """A number and a bound that its error cannot exceed, as decimal strings.
+
+    Parameters
+    ----------
+    value : str
+        With the digits asked for.
+    error_bound : str
+        Of ``value`` as written: the ball's radius and the rounding to decimals.
+    """
+
+    value: str
+    error_bound: str
+
+
+def exact_ball(number: Fraction | int) -> Ball:
+    """The ball around a rational, at the precision in force."""
+    fraction = Fraction(number)
+    return flint.arb(flint.fmpq(fraction.numerator, fraction.denominator))
+
+
+def certified(evaluate: Callable[[], Ball], digits: int) -> Ball:
+    """The ball of ``evaluate()`` with a relative radius below 10^-digits, or exactly zero.
+
+    Parameters
+    ----------
+    evaluate : callable
+        Builds its ball from exact input at the precision in force.
+    digits : int
+        Decimal digits, 1 or more.
+
+    Raises
+    ------
+    InputError
+        If a million bits are not enough.
+    """
+    bits = ceil((digits + 3) * log2(10)) + 20
+    before = flint.ctx.prec
+    try:
+        while bits <= _MOST_BITS:
+            flint.ctx.prec = bits
+            ball = evaluate()
+            if ball.is_exact() or ball.rel_accuracy_bits() >= (digits + 1) * log2(10):
+                return ball
+            bits *= 2
+    finally:
+        flint.ctx.prec = before
+    raise InputError(
+        f"{digits} digits must be within reach of {_MOST_BITS} bits: got no convergence"
+    )
+
+
+def spelled(ball: Ball, digits: int) -> Certified:
+    """The ball's middle with ``digits`` digits, and a bound on the error of that text."""
+    before = flint.ctx.prec
+    try:
+        flint.ctx.prec = max(before, ceil((digits + 10) * log2(10)))
+        text = ball.mid().str(digits, radius=False)
+        error = abs(flint.arb(text) - ball).upper()
+        bound = (error * (1 + flint.arb(2) ** -20)).str(3, radius=False)
+        if flint.arb(bound) < error:
+            bound = (error * flint.arb("1.01")).str(3, radius=False)
+        return Certified(text, bound)
+    finally:
+        flint.ctx.prec = before

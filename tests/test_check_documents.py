@@ -1,0 +1,146 @@
+"""The document of a check: complete, JSON all through, and the same when its plan is replayed."""
+
+import json
+from pathlib import Path
+
+import pytest
+from specrate.numerics.check_documents import check, predicted_order, read_plan
+from specrate.numerics.integrands.grammar import parse_integrand
+from specrate.numerics.pointfiles import write_text
+from specrate.numerics.streams import stream
+from specrate.theory.errors import InputError
+from specrate.theory.samplers import parse_sampler
+
+SAMPLERS = str(Path(__file__).parent / "designs" / "samplers.py")
+
+FIELDS = {
+    "verdict",
+    "faults",
+    "regions",
+    "blocks",
+    "rates",
+    "points",
+    "claims",
+    "matches",
+    "left_out",
+    "n_range",
+    "level",
+    "false_alarm",
+    "plan",
+    "seconds",
+}
+
+
+def timeless(value):
+    """Without fields whose name contains seconds."""
+    if isinstance(value, dict):
+        return {k: timeless(v) for k, v in value.items() if "seconds" not in k}
+    return [timeless(v) for v in value] if isinstance(value, list) else value
+
+
+def text_of(found):
+    return json.dumps(timeless(found), allow_nan=False)
+
+
+CASES = (
+    ("jitter", 2, ["jitter"], ["disk"]),
+    ("random", 2, ["latin-hypercube", "axis/best ~ 1"], []),
+    ("multi-jitter", 2, ["overall/disk ~ 3/2"], []),
+    ("scipy.stats.qmc:Sobol", 3, [], []),
+    (f"{SAMPLERS}:half_jitter", 2, ["jitter"], []),
+    (f"{SAMPLERS}:centred_rooks", 2, ["n-rooks"], []),
+    (f"{SAMPLERS}:frozen", 2, [], []),
+    (f"{SAMPLERS}:raising", 2, ["random"], []),
+    (f"{SAMPLERS}:raising_late", 2, ["random"], []),
+    (f"{SAMPLERS}:fewer", 2, ["random"], []),
+    (f"{SAMPLERS}:slow", 2, ["random"], []),
+)
+
+
+@pytest.mark.parametrize(("word", "dim", "claims", "integrands"), CASES)
+def test_replay_gives_the_same_document(tmp_path, word, dim, claims, integrands):
+    found = check(word, dim, claims, integrands, budget=0.1, seed=7)
+    assert set(found) >= FIELDS
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(found, allow_nan=False))
+    again = check([], dim, plan=path)
+    assert text_of(again) == text_of(found)
+    path.write_text(json.dumps(found["plan"]))
+    assert text_of(check(word, dim, plan=path)) == text_of(found)
+
+
+def test_a_late_fault_is_replayed_at_its_place(tmp_path):
+    """It shows at the third N, when the first two have grown: the plan says how far each came."""
+    found = check(f"{SAMPLERS}:raising_late", 2, ["random"], budget=20, seed=3)
+    assert found["faults"][0]["kind"] == "exception"
+    steps = found["plan"]["ladder"]
+    assert sum(s["attempted"] > s["replicates"] for s in steps) == 1
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(found))
+    assert text_of(check([], 2, plan=path)) == text_of(found)
+
+
+def test_files_replay_too(tmp_path):
+    write_text(tmp_path / "points.txt", stream(94).random((70, 16, 2)))
+    found = check(str(tmp_path / "points.txt"), 2, ["random"], budget=1)
+    (tmp_path / "plan.json").write_text(json.dumps(found))
+    assert text_of(check([], 2, plan=tmp_path / "plan.json")) == text_of(found)
+    assert found["plan"]["ladder"] == [{"n": 16, "replicates": 70, "attempted": 70}]
+
+
+def test_seeds_matter():
+    one, other = (check("jitter", 2, ["jitter"], (), [16], 0.05, seed) for seed in (1, 2))
+    assert one["points"][0]["variance"] != other["points"][0]["variance"]
+
+
+def test_variances_stand_beside_raw_ones():
+    """Jitter is unbiased: raw MSE and raw variance agree; the bias is 0 within 6 errors."""
+    found = check("jitter", 2, ["jitter"], (), [16], 0.3)
+    for row in found["points"]:
+        assert row["raw_variance"]["estimate"] == pytest.approx(row["raw_mse"]["estimate"], rel=0.2)
+        bias = row["bias"]
+        assert abs(bias["estimate"]) < 3.1 * (bias["high"] - bias["estimate"])
+        assert row["variance"]["low"] <= row["variance"]["estimate"] <= row["variance"]["high"]
+
+
+def test_a_contradiction_has_a_witness_that_can_be_read():
+    found = check("random", 2, ["latin-hypercube"], budget=10)
+    (claim,) = found["claims"]
+    witness = claim["witness"]
+    assert (witness["what"], witness["region"], witness["at"]) == ("N P_S(m)", "1", [1, 0])
+    assert witness["measured"]["low"] > witness["predicted"]
+    assert claim["failing"]["tests"] <= claim["failing"]["of"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "exponent"),
+    [
+        ("jitter", "disk", "3/2"),
+        ("latin-hypercube", "gaussian", "1"),
+        ("latin-hypercube", "bernoulli:k=6", "3"),
+        ("multi-jitter", "bernoulli:k=1,axes=(1,2)", "3/2"),
+        ("random", "box:side=0.3", "1"),
+    ],
+)
+def test_predicted_orders(name, text, exponent):
+    order = predicted_order(parse_sampler(name, 2), parse_integrand(text, 2))
+    assert str(order.exponent) == exponent
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "3", '{"plan": 3}', '{"sources": []}'])
+def test_what_is_no_plan(tmp_path, text):
+    path = tmp_path / "plan.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match="must hold a check document or its plan") as caught:
+        read_plan(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_plan_of_another_version(tmp_path):
+    plan = check("random", 2, [], (), [4], 0.01)["plan"]
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(plan | {"specrate": "0.0.0"}))
+    with pytest.raises(InputError, match="must come from this version"):
+        check([], 2, plan=path)
+    with pytest.raises(InputError, match="must be readable"):
+        check([], 2, plan=tmp_path / "absent.json")

@@ -1,0 +1,161 @@
+"""Low-frequency expansions: the terms kept are those of the exact spectrum."""
+
+from itertools import combinations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from specrate.numerics.integrands.protocol import mp
+from specrate.numerics.spectra import counts_by_growth, scaled_power
+from specrate.theory.errors import UndecidedSign
+from specrate.theory.expansions import FULL, Powers, expand, leading_power
+from specrate.theory.kernels import Alphabet
+from specrate.theory.layouts import Growth
+from specrate.theory.regions import region_of_support, regions
+from specrate.theory.samplers import parse_sampler
+from specrate.theory.signs import Range, symbol
+from specrate.theory.symbolic import Integer, Rational, sympy
+from strategies import samplers, supports
+
+d = symbol("d")
+
+
+def monomial_symmetric(partition, squares):
+    """M_λ of the squares: the sum over distinct monomials with the exponents λ."""
+    if partition == FULL:
+        return sympy.prod(squares)
+    if not partition:
+        return Integer(1)
+    if len(partition) == 1:
+        return sum(x ** partition[0] for x in squares)
+    return sum(x * y for x, y in combinations(squares, 2))
+
+
+def value_of_series(series, layout, m, n):
+    """Σ C M(m²) N^-decay at one frequency."""
+    total = mp.mpf(0)
+    for term in series.terms:
+        product = Integer(1)
+        for g, partition in zip(layout.groups, term.powers.partitions, strict=True):
+            first = int(g.first) - 1
+            squares = [Integer(k) ** 2 for k in m[first : first + int(g.size)] if k]
+            if squares:
+                product *= monomial_symmetric(partition, squares)
+        number = sympy.N(term.constant * product, mp.dps + 5)
+        total += mp.mpmathify(number) * mp.power(n, -mp.mpmathify(sympy.N(term.decay, mp.dps)))
+    return total
+
+
+@given(samplers(), st.data())
+def test_series_is_the_spectrum_at_low_frequencies(sampler, data):
+    """At fixed m as N → ∞ their ratio tends to 1, where no count stays fixed and combs are out."""
+    layout = sampler.layout
+    if any(g.exponent == 0 for g in layout.growth.values()):
+        return  # with a fixed count the series in m/n does not converge to its first terms
+    support = data.draw(supports(sampler))
+    series = expand(sampler.kernel, layout, region_of_support(layout, support))
+    m = [0] * int(sampler.dim)
+    for i in support:
+        m[i - 1] = data.draw(st.integers(1, 3))
+    if not series.terms:
+        assert series.combs
+        return
+    with mp.workdps(700):
+        n = mp.mpf(10) ** 240
+        counts = counts_by_growth(layout, n)
+    with mp.workdps(40):
+        ratio = scaled_power(sampler, counts, m) / value_of_series(series, layout, m, n)
+        assert abs(ratio - 1) < mp.mpf(10) ** -8
+
+
+@given(st.integers(1, 6), st.data())
+def test_angular_means_are_moments_of_the_sphere(w, data):
+    """Mean of M_λ(m²)/|m|^degree from Gaussian moments, E x^2k = (2k − 1)!!."""
+    partition = data.draw(
+        st.sampled_from([p for p in [(), (1,), (2,), (1, 1), FULL] if p == FULL or len(p) <= w])
+    )
+    parts = (1,) * w if partition == FULL else partition
+    degree = 2 * sum(parts)
+    gaussian = sympy.prod([sympy.factorial2(2 * k - 1) for k in parts]) if parts else Integer(1)
+    terms = sympy.binomial(w, len(parts))
+    radius = sympy.prod([w + 2 * j for j in range(degree // 2)])  # E |x|^degree
+    powers = Powers((partition,))
+    assert powers.degree((Integer(w),)) == degree
+    assert sympy.simplify(powers.angular_mean((Integer(w),)) - terms * gaussian / radius) == 0
+
+
+def test_angular_means_keep_a_symbolic_size():
+    w = symbol("w")
+    assert Powers(((1,),)).angular_mean((w,)) == 1
+    mean = Powers(((1, 1),)).angular_mean((w,))
+    assert sympy.simplify(mean - (w - 1) / (2 * (w + 2))) == 0
+
+
+def test_powers_are_written():
+    assert Powers(((1,),)).text(("x",)) == "sum_x m_i^2"
+    assert Powers(((1, 1), (2,))).text(("x", "y")) == "sum_x m_i^2 m_j^2 sum_y m_i^4"
+    assert Powers((FULL,)).text(("x",)) == "prod_x m_i^2"
+    assert Powers(((), ())).text(("x", "y")) == "1"
+
+
+def test_multi_jitter_2d_series_has_the_exact_coefficients():
+    """(π²/3)(m_1² + m_2²)/n² to leading order, n = √N."""
+    sampler = parse_sampler("multi-jitter", 2)
+    series = expand(sampler.kernel, sampler.layout, region_of_support(sampler.layout, (1, 2)))
+    terms = {t.powers.partitions: (t.degree, t.decay, t.constant) for t in series.terms}
+    assert terms[((1,),)] == (2, 1, sympy.pi**2 / 3)
+
+
+def test_latin_hypercube_is_flat_off_the_axes():
+    sampler = parse_sampler("latin-hypercube", d)
+    for region in regions(sampler.layout)[1:]:
+        (term,) = expand(sampler.kernel, sampler.layout, region).terms
+        assert (term.degree, term.decay, term.constant) == (0, 0, 1)
+
+
+def test_combs_of_a_regular_grid():
+    """On w of d axes: mean N · N^(−w/d) from N^(1/d) on."""
+    sampler = parse_sampler("regular", d)
+    axis, middle, generic = regions(sampler.layout)
+    w = middle.dimension
+    for region, height in ((axis, 1 - 1 / d), (middle, 1 - w / d), (generic, Integer(0))):
+        series = expand(sampler.kernel, sampler.layout, region)
+        assert series.terms == ()
+        (comb,) = series.combs
+        assert comb.threshold == 1 / d
+        assert sympy.simplify(comb.height - height) == 0
+        assert (comb.constant, comb.scale) == (1, 1)
+
+
+def test_leading_power_is_the_limit():
+    alphabet = Alphabet(("N", "n"))
+    n_points, n = alphabet.count("N"), alphabet.count("n")
+    growth = {"N": Growth(Integer(1)), "n": Growth(Rational(1, 2), Integer(3))}
+    element = (2 * n_points * n - n_points) / (n**2 + 1)  # 2 N n / n² = (2/3) √N
+    assert leading_power(element, growth) == (Rational(1, 2), Rational(2, 3))
+
+
+def test_leading_power_adds_what_is_of_one_size():
+    alphabet = Alphabet(("N", "n"))
+    n_points, n = alphabet.count("N"), alphabet.count("n")
+    growth = {"N": Growth(Integer(1)), "n": Growth(Rational(1, 2))}
+    assert leading_power(n_points - n**2 + n, growth) == (Rational(1, 2), 1)
+
+
+def test_leading_power_needs_comparable_powers():
+    alphabet = Alphabet(("a", "b"))
+    k = symbol("k")
+    growth = {"a": Growth(1 / d), "b": Growth(1 / k)}
+    both = (Range(d, Integer(2)), Range(k, Integer(2)))
+    with pytest.raises(UndecidedSign, match="powers of N must be comparable"):
+        leading_power(alphabet.count("a") + alphabet.count("b"), growth, both)
+
+
+def test_a_comb_beside_other_terms_stands_on_one_axis():
+    alphabet = Alphabet(("N", "n"))
+    n = alphabet.count("n")
+    half = alphabet.comb(n).scaled(alphabet.number(1) / 2)
+    mixed = alphabet.over(0, half + alphabet.one().scaled(alphabet.number(1) / 2))
+    layout = parse_sampler("jitter", 3).layout
+    with pytest.raises(ValueError, match="group of one axis"):
+        expand(mixed, layout, region_of_support(layout, (1, 2)))

@@ -1,0 +1,177 @@
+"""Rates: exponent 1 + min_j e_j min(b_j, q), the slowest region, constants and crossovers."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from specrate.theory.decays import parse_decay
+from specrate.theory.errors import UndecidedSign
+from specrate.theory.orders import Case, Order, dominates
+from specrate.theory.primitives import parse_primitive
+from specrate.theory.radial import C_F, RHO_0, Leading
+from specrate.theory.rates import (
+    Crossover,
+    crossover,
+    is_no_harder,
+    leading_constant,
+    low_frequency_constant,
+    overall,
+    profile_of,
+    region_rates,
+)
+from specrate.theory.regions import region_of_support
+from specrate.theory.samplers import parse_sampler
+from specrate.theory.signs import symbol
+from specrate.theory.symbolic import Integer, Rational, sympy
+from strategies import samplers
+
+d = symbol("d")
+CLASSES = ("worst", "best", "ball", "product:k=2", "additive", "half-space", "p=14")
+
+
+@given(samplers().filter(lambda s: len(s.layout.groups) <= 6), st.sampled_from(CLASSES))
+def test_rate_of_a_region_is_the_minimum_over_its_monomials(sampler, name):
+    for rate in region_rates(sampler, parse_decay(name)):
+        if rate.order is None:
+            assert rate.q is None
+            continue
+        expected = min(
+            1
+            - m.plateau_exponent
+            + (m.effective * sympy.Min(m.degree, rate.q) if m.effective else 0)
+            for m in rate.profile
+        )
+        assert rate.order.exponent == expected
+        tie = any(
+            m.degree == rate.q is not sympy.oo
+            and m.effective != 0
+            and 1 - m.plateau_exponent + m.effective * rate.q == expected
+            for m in rate.profile
+        )
+        assert rate.order.log_power == int(tie)
+
+
+@given(samplers().filter(lambda s: len(s.layout.groups) <= 6), st.sampled_from(CLASSES))
+def test_overall_is_the_slowest_region(sampler, name):
+    rates = region_rates(sampler, parse_decay(name))
+    (case,) = overall(rates, sampler.layout.assumptions)
+    orders = [r.order for r in rates if r.order is not None]
+    assert case.condition is None
+    if not orders:
+        assert case.order.exponent is sympy.oo
+        return
+    assert case.order in orders
+    assert all(dominates(case.order, o) for o in orders)
+
+
+@given(samplers().filter(lambda s: len(s.layout.groups) <= 4))
+def test_smoother_integrands_are_never_slower(sampler):
+    rates = [region_rates(sampler, parse_decay(c)) for c in ("worst", "product:k=3", "best")]
+    for slow, middle, fast in zip(*rates, strict=True):
+        assert dominates(slow.order, middle.order)
+        assert dominates(middle.order, fast.order)
+
+
+@pytest.mark.parametrize("value", [2, 3, 4, 7])
+@pytest.mark.parametrize("integrand", ["worst", "best", "ball"])
+@pytest.mark.parametrize("name", ["jitter", "regular", "latin-hypercube", "multi-jitter", "random"])
+def test_symbolic_dimension_is_the_number_put_in(name, integrand, value):
+    decay = parse_decay(integrand)
+    symbolic, number = parse_sampler(name, d), parse_sampler(name, value)
+    (case,) = overall(region_rates(symbolic, decay), symbolic.layout.assumptions)
+    (expected,) = overall(region_rates(number, decay), ())
+    assert case.order.exponent.xreplace({d: Integer(value)}) == expected.order.exponent
+    assert case.order.log_power.xreplace({d: Integer(value)}).doit() == expected.order.log_power
+
+
+def test_no_power_anywhere_is_the_order_zero():
+    assert overall((), ()) == (Case(Order(sympy.oo)),)
+
+
+def test_a_region_that_exists_for_some_values_only_must_not_decide():
+    """Latin hypercube × a class with power where 1 < w < d alone: not a rate for all d."""
+    sampler = parse_sampler("latin-hypercube", d)
+    middle = [
+        r
+        for r in region_rates(sampler, parse_decay("worst"))
+        if r.region.dimension not in (1, d) or r.region.dimension == 1
+    ]
+    with pytest.raises(UndecidedSign, match="must not decide the rate"):
+        overall(tuple(middle), sampler.layout.assumptions)
+
+
+def test_is_no_harder_compares_equal_profiles_by_q():
+    axis, middle, generic = region_rates(parse_sampler("jitter", 3), parse_decay("ball"))
+    assert not is_no_harder(axis, generic)  # coefficients differ
+    free = region_rates(parse_sampler("isotropic:b", 3), parse_decay("ball"))
+    assert is_no_harder(free[2], free[0])
+    assert not is_no_harder(free[0], free[2])
+    assert middle.q == 2
+
+
+def test_leading_constants_of_the_monomial_model():
+    def constant(name):
+        decay, sampler = parse_decay(name), parse_sampler("jitter", 1)
+        (axis,) = region_rates(sampler, decay)
+        return leading_constant(sampler, axis, decay)
+
+    assert constant("worst") == Leading(Order(Integer(2)), 2 * sympy.pi * C_F / sympy.sqrt(3))
+    assert constant("best") == Leading(Order(Integer(3)), sympy.pi**2 * C_F * RHO_0**3 / 9)
+    assert constant("ball") is None
+
+
+def test_lines_and_segments_of_a_ball():
+    decay = parse_decay("ball")
+    plane = parse_sampler("jitter", 2)
+    for primitive, exponent, log in (
+        ("line", 2, 1),
+        ("segment", 2, 1),
+        ("point", Rational(3, 2), 0),
+    ):
+        (case,) = overall(region_rates(plane, decay, parse_primitive(primitive)), ())
+        assert case.order == Order(sympy.sympify(exponent), Integer(log)), primitive
+
+
+def test_crossover_is_where_two_terms_are_equal():
+    fast, slow = (
+        ("axis", Integer(8), Order(Integer(3))),
+        ("generic", Rational(1, 2), Order(Integer(1))),
+    )
+    assert crossover(fast, slow) == Crossover("axis", "generic", Integer(4))
+    n = crossover(fast, slow).count
+    assert 8 * n**-3 == Rational(1, 2) * n**-1
+
+
+@pytest.mark.parametrize(
+    ("fast", "slow"),
+    [
+        (Order(Integer(2)), Order(Integer(2))),
+        (Order(Integer(3), Integer(1)), Order(Integer(1))),
+        (Order(Integer(3)), Order(Integer(1), Integer(1))),
+        (Order(sympy.oo), Order(Integer(1))),
+    ],
+)
+def test_no_crossover_beside_logarithms_or_equal_powers(fast, slow):
+    assert crossover(("a", Integer(1), fast), ("b", Integer(1), slow)) is None
+
+
+def test_low_frequency_constant_of_jitter_is_the_gradient():
+    """(π²/3) Σ|m|² P_f / N^(1+2/d), that is |∇f|²/(12 N n²)."""
+    sampler = parse_sampler("jitter", 2)
+    profile = profile_of(sampler, region_of_support(sampler.layout, (1, 2)))
+    moments = {((1,),): Integer(5)}
+    assert low_frequency_constant(profile, moments) == (
+        5 * sympy.pi**2 / 3,
+        Order(Integer(2)),
+    )
+
+
+def test_low_frequency_constant_of_correlated_multi_jitter_has_two_forms():
+    """Both monomials give N^-3: (π²/3) Σ|m|² P_f + (π⁴/9) Σ m_1² m_2² P_f."""
+    sampler = parse_sampler("correlated-multi-jitter", 2)
+    profile = profile_of(sampler, region_of_support(sampler.layout, (1, 2)))
+    m1, m2, mixed = sympy.symbols("m1 m2 mixed")
+    moments = {((1,), ()): m1, ((), (1,)): m2, ((1,), (1,)): mixed}
+    constant, order = low_frequency_constant(profile, moments)
+    expected = sympy.pi**2 * (m1 + m2) / 3 + sympy.pi**4 * mixed / 9
+    assert sympy.expand(constant - expected) == 0
+    assert order == Order(Integer(3))
