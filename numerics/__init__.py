@@ -1,5 +1,19 @@
 """What is computed or measured: spectra, variances, point sets, campaigns, verdicts."""
 
-from .check_documents import check
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["check"]
+if TYPE_CHECKING:
+    from .check_documents import check
+    from .radial_integrals import radial
+
+__all__ = ["check", "radial"]
+
+_DOORS = {"check": ".check_documents", "radial": ".radial_integrals"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a door's module when it is first used: ball arithmetic costs nothing to a check."""
+    if name not in _DOORS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_DOORS[name], __name__), name)

@@ -13,7 +13,8 @@ from typing import Any, cast
 from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.decays import parse_decay, shell_exponent
 from ..theory.errors import InputError
-from ..theory.orders import Order, slowest
+from ..theory.dominance import slowest
+from ..theory.orders import Order
 from ..theory.rates import profile_of
 from ..theory.regions import region_of_support, select
 from ..theory.samplers import Sampler

@@ -78,6 +78,7 @@ def _parser() -> _Parser:
     _add_table(commands)
     _add_derive(commands)
     _add_check(commands)
+    _add_radial(commands)
     return parser
 
 
@@ -139,8 +140,23 @@ def _add_check(commands: Commands) -> None:
     _add_format(p)
 
 
+def _add_radial(commands: Commands) -> None:
+    p = _command(commands, "radial", _radial, "Eq. 17 along one region, certified")
+    p.add_argument("--degree", required=True, metavar="B", help="degree b of the profile")
+    p.add_argument("--dim", required=True, type=int, metavar="s", help="dimension of the region")
+    p.add_argument("--decay", required=True, metavar="p", help="decay of P_f; oo: best case")
+    p.add_argument("--n", required=True, metavar="N", help="a number, 1e300 or log:5000")
+    p.add_argument("--effective", metavar="e", help="N_k = N^e; 1/s unless given")
+    p.add_argument("--alpha", default="1", metavar="A")
+    p.add_argument("--gamma", default="1", metavar="G")
+    p.add_argument("--rho0", default="1", metavar="R")
+    p.add_argument("--discontinuous", action="store_true", help="c2 = c as printed in Eq. 16")
+    p.add_argument("--digits", type=int, default=15, metavar="K")
+    _add_format(p, ("terminal", "json"))
+
+
 def _table(a: argparse.Namespace) -> tuple[str, int]:
-    from .tables import render
+    from .table_formats import render
 
     text = render(
         a.sampler, a.dim or ["d"], a.integrand or ["worst", "best"], a.primitive, a.format
@@ -149,7 +165,7 @@ def _table(a: argparse.Namespace) -> tuple[str, int]:
 
 
 def _derive(a: argparse.Namespace) -> tuple[str, int]:
-    from .derivations import render
+    from .derivation_formats import render
 
     return render(a.sampler, a.dim, a.integrand, a.region, a.primitive, a.format), DONE
 
@@ -160,7 +176,7 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     if a.plan is None and (not a.source or a.dim is None):
         raise InputError("check needs a SOURCE and --dim (or --plan): got neither or one")
     from ..numerics import check
-    from .checks import render
+    from .check_formats import render
 
     dim = 1 if a.dim is None else a.dim  # a plan names its own
     document = check(a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed, a.plan, _progress)
@@ -169,6 +185,25 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
         INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)
     )
     return render(document, a.format), code
+
+
+def _radial(a: argparse.Namespace) -> tuple[str, int]:
+    from ..numerics import radial
+    from .radial_formats import render
+
+    found = radial(
+        a.degree,
+        a.dim,
+        a.decay,
+        a.n,
+        a.effective,
+        a.alpha,
+        a.gamma,
+        a.rho0,
+        a.discontinuous,
+        a.digits,
+    )
+    return render(found, a.format), DONE
 
 
 def _progress(text: str) -> None:

@@ -2,19 +2,16 @@
 
 from itertools import combinations
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.integrands.protocol import mp
 from specrate.numerics.spectra import counts_by_growth, scaled_power
-from specrate.theory.errors import UndecidedSign
-from specrate.theory.expansions import FULL, Powers, expand, leading_power
-from specrate.theory.kernels import Alphabet
-from specrate.theory.layouts import Growth
+from specrate.theory.combs import combs_of
+from specrate.theory.expansions import FULL, Powers, expand
 from specrate.theory.regions import region_of_support, regions
 from specrate.theory.samplers import parse_sampler
-from specrate.theory.signs import Range, symbol
-from specrate.theory.symbolic import Integer, Rational, sympy
+from specrate.theory.signs import symbol
+from specrate.theory.symbolic import Integer, sympy
 from strategies import samplers, supports
 
 d = symbol("d")
@@ -58,7 +55,7 @@ def test_series_is_the_spectrum_at_low_frequencies(sampler, data):
     for i in support:
         m[i - 1] = data.draw(st.integers(1, 3))
     if not series.terms:
-        assert series.combs
+        assert combs_of(sampler.kernel, layout, region_of_support(layout, support))
         return
     with mp.workdps(700):
         n = mp.mpf(10) ** 240
@@ -111,51 +108,3 @@ def test_latin_hypercube_is_flat_off_the_axes():
     for region in regions(sampler.layout)[1:]:
         (term,) = expand(sampler.kernel, sampler.layout, region).terms
         assert (term.degree, term.decay, term.constant) == (0, 0, 1)
-
-
-def test_combs_of_a_regular_grid():
-    """On w of d axes: mean N · N^(−w/d) from N^(1/d) on."""
-    sampler = parse_sampler("regular", d)
-    axis, middle, generic = regions(sampler.layout)
-    w = middle.dimension
-    for region, height in ((axis, 1 - 1 / d), (middle, 1 - w / d), (generic, Integer(0))):
-        series = expand(sampler.kernel, sampler.layout, region)
-        assert series.terms == ()
-        (comb,) = series.combs
-        assert comb.threshold == 1 / d
-        assert sympy.simplify(comb.height - height) == 0
-        assert (comb.constant, comb.scale) == (1, 1)
-
-
-def test_leading_power_is_the_limit():
-    alphabet = Alphabet(("N", "n"))
-    n_points, n = alphabet.count("N"), alphabet.count("n")
-    growth = {"N": Growth(Integer(1)), "n": Growth(Rational(1, 2), Integer(3))}
-    element = (2 * n_points * n - n_points) / (n**2 + 1)  # 2 N n / n² = (2/3) √N
-    assert leading_power(element, growth) == (Rational(1, 2), Rational(2, 3))
-
-
-def test_leading_power_adds_what_is_of_one_size():
-    alphabet = Alphabet(("N", "n"))
-    n_points, n = alphabet.count("N"), alphabet.count("n")
-    growth = {"N": Growth(Integer(1)), "n": Growth(Rational(1, 2))}
-    assert leading_power(n_points - n**2 + n, growth) == (Rational(1, 2), 1)
-
-
-def test_leading_power_needs_comparable_powers():
-    alphabet = Alphabet(("a", "b"))
-    k = symbol("k")
-    growth = {"a": Growth(1 / d), "b": Growth(1 / k)}
-    both = (Range(d, Integer(2)), Range(k, Integer(2)))
-    with pytest.raises(UndecidedSign, match="powers of N must be comparable"):
-        leading_power(alphabet.count("a") + alphabet.count("b"), growth, both)
-
-
-def test_a_comb_beside_other_terms_stands_on_one_axis():
-    alphabet = Alphabet(("N", "n"))
-    n = alphabet.count("n")
-    half = alphabet.comb(n).scaled(alphabet.number(1) / 2)
-    mixed = alphabet.over(0, half + alphabet.one().scaled(alphabet.number(1) / 2))
-    layout = parse_sampler("jitter", 3).layout
-    with pytest.raises(ValueError, match="group of one axis"):
-        expand(mixed, layout, region_of_support(layout, (1, 2)))

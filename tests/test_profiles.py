@@ -15,7 +15,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from specrate.numerics.integrands.protocol import mp
 from specrate.numerics.spectra import counts_by_growth, scaled_power
-from specrate.theory.expansions import Comb, Powers, Series, SeriesTerm
+from specrate.theory.combs import Comb
+from specrate.theory.expansions import Powers, Series, SeriesTerm
 from specrate.theory.orders import Order
 from specrate.theory.profiles import SaturatingMonomial, newton_polygon, saturated_order, tie
 from specrate.theory.rates import profile_of
@@ -125,7 +126,7 @@ def line(degree, decay):
 
 
 def vertices(*terms, combs=()):
-    found = newton_polygon(Series((Integer(2),), terms, combs), ())
+    found = newton_polygon(Series((Integer(2),), terms), combs, ())
     return [(m.degree, m.effective) for m in found]
 
 
@@ -142,7 +143,7 @@ def test_polygon_drops_what_is_hidden():
 
 def test_polygon_joins_terms_of_one_line():
     two = SeriesTerm(Powers(((2,),)), Integer(4), Integer(2), Integer(3))
-    (found,) = newton_polygon(Series((Integer(2),), (line(4, 2), two), ()), ())
+    (found,) = newton_polygon(Series((Integer(2),), (line(4, 2), two)), (), ())
     assert len(found.form) == 2
     # means over the circle: m_1² m_2² = 1/8, m_1⁴ + m_2⁴ = 3/4
     assert found.coefficient == Rational(1, 8) + 3 * Rational(3, 4)

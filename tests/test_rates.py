@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.theory.decays import parse_decay
+from specrate.theory.dominance import Case, dominates
 from specrate.theory.errors import UndecidedSign
-from specrate.theory.orders import Case, Order, dominates
+from specrate.theory.orders import Order
 from specrate.theory.primitives import parse_primitive
 from specrate.theory.radial import C_F, RHO_0, Leading
 from specrate.theory.rates import (

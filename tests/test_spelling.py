@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from latex import check_structure
-from specrate.theory.orders import Case, Order
+from specrate.theory.dominance import Case
+from specrate.theory.orders import Order
 from specrate.theory.regions import Region, region_of_support, regions, select
 from specrate.theory.samplers import Sampler, parse_sampler
 from specrate.theory.signs import symbol

@@ -10,8 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .decays import Decay, parse_decay
+from .dominance import Case
 from .integrals import integral_latex, integral_text, raised, raised_latex
-from .orders import Case, Order
+from .orders import Order
 from .primitives import Primitive, parse_primitive, sampled_dimension
 from .profiles import SaturatingMonomial
 from .radial import N, Radial, closed_form, leading

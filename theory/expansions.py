@@ -11,20 +11,18 @@ which also makes sense for a symbolic w (the power sums Σ m_i^2k in another bas
 does not vanish, (1, 1, ..., 1) of degree 2w. That nothing of consequence is lost is checked by the
 two-sided comparison of profile and kernel in the numerics room.
 
-Below the first alias a comb is [m = 0] and drops out; what it adds above is kept as its mean.
+Below the first alias a comb is [m = 0] and drops out; what it adds above is in ``combs.py``.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, reduce
+from functools import cache
 from itertools import product
-from operator import add
 
-from .errors import UndecidedSign
 from .kernels import Factor, Kernel, Term
-from .layouts import Growth, Layout
+from .layouts import Layout
+from .leading_powers import Base, Coefficient, leading, summed
 from .regions import Region
-from .signs import Assumptions, nonnegative
 from .symbolic import Expr, FracElement, FracField, Integer, Rational, sympy
 
 FULL = (-1,)
@@ -83,28 +81,11 @@ class SeriesTerm:
 
 
 @dataclass(frozen=True)
-class Comb:
-    """Mean of a comb above its first alias: constant · N^height for |m| >= scale · N^threshold."""
-
-    threshold: Expr
-    height: Expr
-    constant: Expr
-    scale: Expr = Integer(1)
-
-
-@dataclass(frozen=True)
 class Series:
-    """Low-frequency terms of N·P_S on a region, and its combs."""
+    """Low-frequency terms of N·P_S on a region."""
 
     counts: tuple[Expr, ...]
     terms: tuple[SeriesTerm, ...]
-    combs: tuple[Comb, ...]
-
-
-# A coefficient is a sum of field elements times symbolic powers of field elements.
-_Base = tuple[FracElement, Expr]
-_Bases = tuple[_Base, ...]
-_Coefficient = dict[_Bases, FracElement]
 
 
 def expand(kernel: Kernel, layout: Layout, region: Region) -> Series:
@@ -113,13 +94,13 @@ def expand(kernel: Kernel, layout: Layout, region: Region) -> Series:
     terms = kernel.restrict(counts)
     found: list[SeriesTerm] = []
     for powers in _indices(counts):
-        coefficient = _summed(_term_coefficient(t, powers, counts) for t in terms)
-        lead = _leading(coefficient, layout.growth, region.assumptions)
+        coefficient = summed(_term_coefficient(t, powers, counts) for t in terms)
+        lead = leading(coefficient, layout.growth, region.assumptions)
         if lead is not None:
             found.append(SeriesTerm(powers, powers.degree(counts), sympy.expand(-lead[0]), lead[1]))
             if lead[0] == 0 and found[-1].degree == 0:
                 break  # flat from the start: no other term can rise above it
-    return Series(counts, tuple(found), tuple(_combs(terms, layout, region)))
+    return Series(counts, tuple(found))
 
 
 def _indices(counts: tuple[Expr, ...]) -> Iterator[Powers]:
@@ -145,7 +126,7 @@ def _sinc2_coefficient(k: int) -> Expr:
 
 
 @cache
-def _series(factor: Factor) -> tuple[FracElement, ...]:
+def factor_series(factor: Factor) -> tuple[FracElement, ...]:
     """c_0, c_1, c_2 of the factor off its combs, φ(m) = Σ c_k m^2k."""
     field = factor.terms[0][0].field
     totals = [field(0)] * (_HIGHEST + 1)
@@ -172,10 +153,10 @@ def _times_sinc2(
     ]
 
 
-def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> _Coefficient:
+def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> Coefficient:
     factors = dict(term.factors)
     value: FracElement = term.coefficient
-    bases: list[_Base] = []
+    bases: list[Base] = []
     for group, (partition, w) in enumerate(zip(powers.partitions, counts, strict=True)):
         if w == 0:
             continue
@@ -183,7 +164,7 @@ def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> _
             if partition:
                 return {}
             continue
-        coefficient, base = _group_coefficient(_series(factors[group]), partition, w)
+        coefficient, base = group_coefficient(factor_series(factors[group]), partition, w)
         if coefficient == 0:
             return {}
         value *= coefficient
@@ -191,9 +172,9 @@ def _term_coefficient(term: Term, powers: Powers, counts: tuple[Expr, ...]) -> _
     return {tuple(bases): value}
 
 
-def _group_coefficient(
+def group_coefficient(
     series: tuple[FracElement, ...], partition: tuple[int, ...], w: Expr
-) -> tuple[FracElement, list[_Base]]:
+) -> tuple[FracElement, list[Base]]:
     """Coefficient of M_λ in the product of one factor over w axes, with a symbolic power."""
     one = series[0].field(1)
     if partition == FULL:
@@ -211,121 +192,3 @@ def _group_coefficient(
     if rest.is_Integer:
         return value * series[0] ** int(rest), []
     return value, [(series[0], rest)]
-
-
-def _summed(coefficients: Iterator[_Coefficient]) -> _Coefficient:
-    total: _Coefficient = {}
-    for coefficient in coefficients:
-        for bases, value in coefficient.items():
-            total[bases] = total[bases] + value if bases in total else value
-    return {b: v for b, v in total.items() if v != 0}
-
-
-def _leading(
-    coefficient: _Coefficient, growth: Mapping[str, Growth], assumptions: Assumptions
-) -> tuple[Expr, Expr] | None:
-    """Largest power of N in a coefficient and its constant; None for a zero coefficient."""
-    found: list[tuple[Expr, Expr]] = []
-    for bases, value in coefficient.items():
-        exponent, constant = leading_power(value, growth, assumptions)
-        for base, power in bases:
-            e, c = leading_power(base, growth, assumptions)
-            exponent, constant = exponent + power * e, constant * c**power
-        found.append((sympy.expand(exponent), constant))
-    return _largest(found, assumptions) if found else None
-
-
-def leading_power(
-    element: FracElement, growth: Mapping[str, Growth], assumptions: Assumptions = ()
-) -> tuple[Expr, Expr]:
-    """(a, C) with element ~ C N^a under the growth laws of its counts."""
-    over = _leading_of_polynomial(element.numer, growth, assumptions)
-    under = _leading_of_polynomial(element.denom, growth, assumptions)
-    return over[0] - under[0], over[1] / under[1]
-
-
-def _leading_of_polynomial(
-    polynomial: FracElement, growth: Mapping[str, Growth], assumptions: Assumptions
-) -> tuple[Expr, Expr]:
-    laws = [growth[str(s)] for s in polynomial.ring.symbols[1:]]
-    found: list[tuple[Expr, Expr]] = []
-    for (half_pi, *powers), number in polynomial.terms():
-        exponent, constant = (
-            Integer(0),
-            sympy.pi ** (2 * half_pi) * Rational(number.numerator, number.denominator),
-        )
-        for law, k in zip(laws, powers, strict=True):
-            if k:
-                exponent, constant = exponent + k * law.exponent, constant * law.constant**k
-        found.append((sympy.expand(exponent), constant))
-    return _largest(found, assumptions)
-
-
-def _largest(terms: list[tuple[Expr, Expr]], assumptions: Assumptions) -> tuple[Expr, Expr]:
-    """The largest exponent with the sum of its constants; sums that vanish are passed over."""
-    sums: dict[Expr, Expr] = {}
-    for exponent, constant in terms:
-        sums[exponent] = sums.get(exponent, Integer(0)) + constant
-    left = [(e, c) for e, c in sums.items() if c != 0]
-    best = left[0]
-    for candidate in left[1:]:
-        larger = nonnegative(candidate[0] - best[0], assumptions)
-        if larger is None and not nonnegative(best[0] - candidate[0], assumptions):
-            raise UndecidedSign(
-                "powers of N must be comparable: the sign of "
-                f"{candidate[0] - best[0]} varies for {', '.join(map(str, assumptions))}"
-            )
-        best = candidate if larger else best
-    return best
-
-
-def _combs(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[Comb]:
-    """The mean that each set of comb axes adds above its first alias."""
-    heights: dict[_Bases, list[_Coefficient]] = {}
-    for term in terms:
-        for combs, coefficient in _comb_terms(term, region.counts):
-            heights.setdefault(combs, []).append(coefficient)
-    for combs, parts in heights.items():
-        lead = _leading(_summed(iter(parts)), layout.growth, region.assumptions)
-        if lead is None:
-            continue
-        height, constant = lead
-        threshold, scale = Integer(0), Integer(1)
-        for count, axes in combs:  # the comb meets one frequency in n on each of its axes
-            exponent, factor = leading_power(count, layout.growth, region.assumptions)
-            height, constant = height - axes * exponent, constant / factor**axes
-            if exponent == threshold:
-                scale = sympy.Max(scale, factor)
-            elif nonnegative(exponent - threshold, region.assumptions):
-                threshold, scale = exponent, factor
-        yield Comb(threshold, sympy.expand(height), constant, scale)
-
-
-def _comb_terms(term: Term, counts: tuple[Expr, ...]) -> Iterator[tuple[_Bases, _Coefficient]]:
-    """Choices of comb axes in a term: (count, number of axes) and the coefficient at m = 0."""
-    choices = [list(_comb_choices(factor, counts[g])) for g, factor in term.factors]
-    for pick in product(*choices):
-        combs = tuple(c for combs, _ in pick for c in combs)
-        if combs:
-            value: FracElement = term.coefficient
-            bases: list[_Base] = []
-            for _, (coefficient, base) in pick:
-                value, bases = value * coefficient, bases + base
-            if value != 0:
-                yield combs, {tuple(bases): value}
-
-
-def _comb_choices(
-    factor: Factor, w: Expr
-) -> Iterator[tuple[_Bases, tuple[FracElement, list[_Base]]]]:
-    """For one group: no comb at all, or all w axes on a comb (mixed only for w = 1)."""
-    plain = Factor(tuple((c, a) for c, a in factor.terms if not a.combs))
-    if plain.terms:
-        yield (), _group_coefficient(_series(plain), (), w)
-    counts = sorted({n for _, a in factor.terms for n in a.combs}, key=str)
-    if counts and plain.terms and w != Integer(1):
-        raise ValueError(f"a comb beside other terms must stand on a group of one axis: got {w}")
-    for count in counts:
-        field = factor.terms[0][0].field
-        value = reduce(add, (c for c, a in factor.terms if a.combs == (count,)), field(0))
-        yield ((count, w),), ((value ** int(w), []) if w.is_Integer else (field(1), [(value, w)]))

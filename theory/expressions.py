@@ -1,4 +1,4 @@
-"""Exact expressions read from text without evaluating it.
+"""Exact expressions: read from text without evaluating it, and put into one form.
 
 Exponents, block sizes and dimensions come from users as text such as ``3/2``, ``1 + 1/d`` or
 ``d-3``. The text is parsed to a syntax tree and only whole numbers, decimals, the named symbols,
@@ -105,3 +105,16 @@ def parse_size(text: str, symbols: Mapping[str, Expr] | None = None) -> Expr:
     if size.is_number and not (size.is_Integer and size.is_positive):
         raise InputError(f"a size must be a whole number of at least 1: got {text!r}")
     return size
+
+
+def partial_fractions(exponent: Expr) -> Expr:
+    """One form for one exponent: d/(d − 1) + 1/(d − 1) becomes 1 + 2/(d − 1)."""
+    expanded = sympy.expand(exponent)
+    symbolic = [t for t in sympy.Add.make_args(expanded) if not t.is_number]
+    if not symbolic or (len(symbolic) == 1 and symbolic[0].as_numer_denom()[0].is_number):
+        return expanded
+    if not expanded.is_rational_function():
+        return expanded
+    quotient = sympy.together(expanded)
+    free = sympy.fraction(quotient)[1].free_symbols
+    return sympy.expand(sympy.apart(quotient, *free)) if len(free) == 1 else expanded

@@ -15,8 +15,8 @@ from functools import lru_cache
 from itertools import combinations_with_replacement, product
 
 from .errors import UndecidedSign
-from .expansions import leading_power
 from .kernels import Factor, Term
+from .leading_powers import leading_power
 from .regions import Region
 from .samplers.definition import Sampler
 from .signs import nonnegative, sign_of

@@ -14,7 +14,8 @@ kept as a step, degree oo at N_k = N^e, whose plateau N^g may grow with N on sma
 
 from dataclasses import dataclass, field
 
-from .expansions import Comb, Powers, Series
+from .combs import Comb
+from .expansions import Powers, Series
 from .orders import Order
 from .signs import Assumptions, nonnegative, sign_of
 from .symbolic import Expr, Integer, sympy
@@ -101,13 +102,17 @@ def tie(b: Expr, q: Expr, assumptions: Assumptions) -> Expr:
     return sympy.KroneckerDelta(b, q)
 
 
-def newton_polygon(series: Series, assumptions: Assumptions) -> tuple[SaturatingMonomial, ...]:
+def newton_polygon(
+    series: Series, combs: tuple[Comb, ...], assumptions: Assumptions
+) -> tuple[SaturatingMonomial, ...]:
     """The saturating monomials of a region from the low-frequency series of its kernel.
 
     Parameters
     ----------
     series : Series
-        Terms C |m|^b N^-λ with their angular forms, and combs.
+        Terms C |m|^b N^-λ with their angular forms.
+    combs : tuple of Comb
+        What the kernel's combs add in the mean.
     assumptions : Assumptions
         Those of the region.
     """
@@ -117,7 +122,7 @@ def newton_polygon(series: Series, assumptions: Assumptions) -> tuple[Saturating
     edge = _saturation(list(lines), assumptions)
     kept = [p for p in lines if not any(_hides(o, p, edge, assumptions) for o in lines if o != p)]
     found = [_monomial(p, lines[p], series) for p in kept]
-    steps = [_step(c) for c in series.combs]
+    steps = [_step(c) for c in combs]
     return tuple(found) + tuple(
         s
         for i, s in enumerate(steps)

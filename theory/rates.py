@@ -11,10 +11,12 @@ Overall the slowest of the regions in which the integrand has power decides.
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from .combs import combs_of
 from .decays import Decay
+from .dominance import Case, cases, dominates, slowest
 from .errors import UndecidedSign
 from .expansions import expand
-from .orders import Case, Order, cases, dominates, slowest
+from .orders import Order
 from .plateaus import plateau
 from .primitives import Primitive, shells
 from .profiles import SaturatingMonomial, newton_polygon
@@ -54,7 +56,8 @@ def _derived(sampler: Sampler, region: Region) -> Profile:
     if sampler.kernel is None:
         return sampler.free_profile
     series = expand(sampler.kernel, sampler.layout, region)
-    return newton_polygon(series, region.assumptions)
+    combs = combs_of(sampler.kernel, sampler.layout, region)
+    return newton_polygon(series, combs, region.assumptions)
 
 
 def profile_of(sampler: Sampler, region: Region) -> Profile:

@@ -179,6 +179,11 @@ def _common_sign(signs: set[Sign]) -> Sign:
     return None
 
 
+def lower_bound(free: Symbol, assumptions: Assumptions) -> Expr | None:
+    """The lower bound of a symbol's range; None if it has no range."""
+    return next((r.lower for r in assumptions if r.symbol == free), None)
+
+
 def sign_changes(expression: Expr, assumptions: Assumptions) -> tuple[Symbol, list[Expr]] | None:
     """Where the sign of a rational function of one symbol changes, or None if it has more.
 
@@ -190,7 +195,7 @@ def sign_changes(expression: Expr, assumptions: Assumptions) -> tuple[Symbol, li
     if len(expression.free_symbols) != 1:
         return None
     (free,) = expression.free_symbols
-    lower = next((r.lower for r in assumptions if r.symbol == free), None)
+    lower = lower_bound(free, assumptions)
     if lower is None or not lower.is_number:
         return None
     numerator, _ = sympy.fraction(sympy.together(expression))

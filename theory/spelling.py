@@ -3,8 +3,9 @@
 import re
 from collections.abc import Sequence
 
+from .dominance import Case
 from .kernels import Atom, Factor, Term
-from .orders import Case, Order
+from .orders import Order
 from .regions import Region
 from .samplers import Sampler
 from .symbolic import Expr, FracElement, sympy

@@ -8,9 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from .decays import Decay, parse_decay
+from .dominance import dominates
 from .errors import InputError
 from .expressions import is_whole, parse_size
-from .orders import Order, dominates
+from .orders import Order
 from .primitives import Primitive, parse_primitive, sampled_dimension
 from .rates import RegionRate, is_no_harder, leading_constant, overall, region_rates
 from .regions import touched

@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
-from ..theory.orders import Case, Order
+from ..theory.dominance import Case
+from ..theory.orders import Order
 from ..theory.primitives import parse_primitive, sampled_dimension
 from ..theory.spelling import (
     big_o,

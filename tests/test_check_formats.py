@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from latex import check_structure, compile_where_possible
 from specrate.numerics import check
-from specrate.report.checks import frequency_text, render, short
+from specrate.report.check_formats import frequency_text, render, short
 
 Document = dict[str, Any]
 

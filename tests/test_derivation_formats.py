@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from latex import check_structure, compile_where_possible
-from specrate.report.derivations import render
+from specrate.report.derivation_formats import render
 from specrate.theory.derivations import derive
 
 CASES = [

@@ -6,11 +6,13 @@
   are cut where the rest is bounded below the error asked for.
 - ``mpmath``: ``mpmath.quad`` of the same pieces in t, an estimate that certifies nothing.
 
-Every input is exact (a fraction; N a fraction or a power of ten), so that b = 1 ± 1e-12 or N = 1e5000
-lose nothing: ball arithmetic raises its precision until the digits stand.
+Every input is exact (a fraction; N a fraction or a power of ten), so that b = 1 ± 1e-12 or
+N = 1e5000 lose nothing: ball arithmetic raises its precision until the digits stand.
 """
 
+import re
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -20,7 +22,10 @@ from ..theory.symbolic import Expr, Integer, Rational, sympy
 from .balls import Ball, Certified, certified, exact_ball, flint, spelled
 from .integrands.protocol import Mpf, mp
 
-ROUTES = ("closed", "quadrature", "mpmath")
+_NUMBER = re.compile(
+    r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"
+)
+_LOG = re.compile(r"log:([+-]?\d{1,9}(\.\d{0,60})?)")
 
 
 @dataclass(frozen=True)
@@ -103,6 +108,69 @@ class RadialResult:
     seconds: float
 
 
+def radial(
+    degree: str,
+    dim: int,
+    decay: str,
+    n: str,
+    effective: str | None = None,
+    alpha: str = "1",
+    gamma: str = "1",
+    rho0: str = "1",
+    discontinuous: bool = False,
+    digits: int = 15,
+) -> RadialResult:
+    """Eq. 17 along one region, certified.
+
+    Parameters
+    ----------
+    degree, decay, n, effective, alpha, gamma, rho0 : str
+        Exact numbers: ``3/2``, ``0.1``, ``1e-30``. ``decay`` may be ``oo``, the best case; ``n``
+        may be ``log:5000``, its decimal logarithm. ``effective`` is 1/dim unless given.
+    dim : int
+        s, the dimension of the region.
+    discontinuous : bool
+        Whether c2 = c, as printed in the paper, instead of a continuous P_f.
+    digits : int
+
+    Raises
+    ------
+    InputError
+        If a number is not one, or out of its range.
+    """
+    log_n = _LOG.fullmatch(n.strip())
+    problem = RadialProblem(
+        exact_number(degree, "degree"),
+        dim,
+        None if decay.strip() == "oo" else exact_number(decay, "decay"),
+        None if log_n else exact_number(n, "n"),
+        Fraction(log_n.group(1)) if log_n else None,
+        Fraction(1, max(dim, 1)) if effective is None else exact_number(effective, "effective"),
+        exact_number(gamma, "gamma"),
+        exact_number(alpha, "alpha"),
+        exact_number(rho0, "rho0"),
+        not discontinuous,
+    )
+    return solve(problem, digits)
+
+
+def exact_number(text: str, name: str) -> Fraction:
+    """A fraction, decimal or power-of-ten literal, read exactly.
+
+    Raises
+    ------
+    InputError
+        If it is none, or longer than a number needs to be.
+    """
+    word = text.strip()
+    if not _NUMBER.fullmatch(word) or word.endswith("/0"):
+        raise InputError(f"{name} must be a number such as 3/2, 0.1 or 1e-30: got {text!r}")
+    try:
+        return Fraction(word)
+    except ZeroDivisionError:
+        raise InputError(f"{name} must be a number such as 3/2: got {text!r}") from None
+
+
 def _rational(value: Fraction) -> Expr:
     return Rational(value.numerator, value.denominator)
 
@@ -124,7 +192,7 @@ def solve(problem: RadialProblem, digits: int = 15, route: str = "closed") -> Ra
     if not 1 <= digits <= 10_000:
         raise InputError(f"--digits must be in 1..10000: got {digits}")
     began = time.perf_counter()
-    evaluate = _closed(problem) if route == "closed" else _quadrature(problem, digits)
+    evaluate = _closed(problem) if route == "closed" else _quadrature(problem)
     ball = certified(evaluate, digits)
     log_value = certified(lambda: evaluate().log(), min(digits, 15))
     seconds = time.perf_counter() - began
@@ -165,7 +233,7 @@ def is_crossed(problem: RadialProblem) -> bool:
     return True
 
 
-def _closed(problem: RadialProblem):
+def _closed(problem: RadialProblem) -> Callable[[], Ball]:
     """The sum of powers of ν, term by term."""
     terms = power_log_terms(problem.theory(), is_crossed(problem))
 
@@ -227,16 +295,16 @@ def _pieces(problem: RadialProblem) -> list[_Piece]:
     return found
 
 
-def _quadrature(problem: RadialProblem, digits: int):
+def _quadrature(problem: RadialProblem) -> Callable[[], Ball]:
     """Ball quadrature of each piece; tails are cut where they are bounded and added as errors."""
 
     def evaluate() -> Ball:
         total = flint.arb(0)
         for log_amplitude, power, low, high in _pieces(problem):
-            total += _integral(log_amplitude, power, low, high)
+            total += integral(log_amplitude, power, low, high)
         return total * exact_ball(problem.gamma) / _count(problem)
 
-    def _integral(log_amplitude: Ball, power: Ball, low: Ball | None, high: Ball | None) -> Ball:
+    def integral(log_amplitude: Ball, power: Ball, low: Ball | None, high: Ball | None) -> Ball:
         cut = flint.arb(flint.ctx.prec) * flint.arb(2).log() / abs(power)
         anchor = low if low is not None else high
         assert anchor is not None

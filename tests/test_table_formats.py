@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from latex import check_structure, compile_where_possible
 from specrate.report.cli import FORMATS
-from specrate.report.tables import render
+from specrate.report.table_formats import render
 from specrate.theory.tables import table
 
 BOTH = ("worst", "best")
