@@ -7,10 +7,10 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from specrate.numerics.campaign import Moments, estimates, shifted, update, variance_interval
 from specrate.numerics.crossovers import crossovers, region_constants
 from specrate.numerics.generators import generate
 from specrate.numerics.integrands.grammar import parse_integrand
+from specrate.numerics.moments import Moments, estimates, shifted, update, variance_interval
 from specrate.numerics.probes import amplitudes
 from specrate.numerics.spectra import power_array
 from specrate.numerics.streams import stream

@@ -1,4 +1,4 @@
-"""What is computed or measured: spectra, variances, point sets, campaigns, verdicts."""
+"""What is computed or measured: spectra, variances, point sets, moments, verdicts."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any

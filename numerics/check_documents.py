@@ -4,7 +4,7 @@
 """
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from importlib.metadata import version
 from math import isfinite, log
 from pathlib import Path
@@ -12,20 +12,27 @@ from typing import Any, cast
 
 from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.decays import parse_decay, shell_exponent
-from ..theory.errors import InputError
 from ..theory.dominance import slowest
+from ..theory.errors import InputError
 from ..theory.orders import Order
 from ..theory.rates import profile_of
 from ..theory.regions import region_of_support, select
 from ..theory.samplers import Sampler
-from .campaign import Interval, Moments, variance_interval
 from .checks import Judgement, State, judgements, matching, rate_points, run_check, seconds_needed
 from .integrands.bernoulli import Bernoulli
 from .integrands.protocol import Integrand
 from .measurements import Measurement
-from .probes import Support, integrand_supports, probed_supports, support_of_frequency
+from .moments import Interval, Moments, variance_interval
+from .probes import Frequency, Support, integrand_supports, probed_supports, support_of_frequency
 from .slopes import fit_slope
-from .verdicts import FALSE_ALARM, MARGIN, Comparison, Outcome, spectrum_predictions
+from .verdicts import (
+    EQUIVALENCE_LEVEL,
+    FALSE_ALARM,
+    MARGIN,
+    Comparison,
+    Outcome,
+    spectrum_predictions,
+)
 
 Document = dict[str, Any]
 
@@ -125,12 +132,14 @@ def document(state: State) -> Document:
     asked, found, matched = state.design, judgements(state), matching(state)
     measured = [m for m in state.measurements if m.replicates]
     claimed = asked.claimed_samplers[0] if asked.claimed_samplers else None
+    first = next((j for j in found if isinstance(j.claim, SamplerClaim)), None)
+    failing = {(c.n, c.at) for c in (first.found if first else ()) if c.outcome == "fails"}
     return {
         "verdict": verdict(state, found, matched),
         "faults": [
             {"kind": f.kind, "detail": f.detail, "evidence": f.evidence} for f in state.faults
         ],
-        "regions": [_region(s, measured, claimed, state.level) for s in _supports(state)],
+        "regions": [_region(s, measured, claimed, failing) for s in _supports(state)],
         "blocks": None,
         "rates": [r for f in _integrands(state) for r in [_rate(state, f, claimed, found)] if r],
         "points": [p for f in _integrands(state) for p in _points(state, f, measured, claimed)],
@@ -141,6 +150,7 @@ def document(state: State) -> Document:
         "level": state.level,
         "false_alarm": FALSE_ALARM,
         "margin": MARGIN,
+        "equivalence_level": EQUIVALENCE_LEVEL,
         "budget_needed_seconds": seconds_needed(state, found),
         "interrupted": state.interrupted,
         "plan": _plan(state),
@@ -205,7 +215,10 @@ def _integrands(state: State) -> tuple[Integrand, ...]:
 
 
 def _region(
-    support: Support, measured: Sequence[Measurement], claimed: Sampler | None, level: float
+    support: Support,
+    measured: Sequence[Measurement],
+    claimed: Sampler | None,
+    failing: Collection[tuple[int, Frequency | str]],
 ) -> Document:
     """N·P_S on one support, with the claimed sampler's where there is one."""
     rows: list[Document] = []
@@ -214,19 +227,15 @@ def _region(
         exact = spectrum_predictions(claimed, m.n, wanted) if claimed and wanted else None
         for k in wanted if m.replicates >= 2 else []:
             measured_power = variance_interval(m.power[k], _REPORTED)
-            decided = variance_interval(m.power[k], level)
             scaled = Interval(*(m.n * v for v in measured_power))
             predicted = None if exact is None else m.n * exact[k]
-            outside = predicted is not None and not (
-                m.n * decided.low <= predicted + 1e-13 and predicted <= m.n * decided.high + 1e-13
-            )
             rows.append(
                 {
                     "n": m.n,
                     "frequency": list(k),
                     "scaled_power": _interval(scaled),
                     "predicted": None if predicted is None else f"{predicted:.12g}",
-                    "agrees": None if predicted is None else not outside,
+                    "agrees": None if predicted is None else (m.n, k) not in failing,
                 }
             )
     return {"region": _named(support), "profile": [], "outside_model": None, "spectrum": rows}

@@ -13,7 +13,6 @@ from math import log
 from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler
-from .campaign import Interval, variance_interval
 from .catalogue_source import chunk_size
 from .designs import (
     Design,
@@ -29,6 +28,7 @@ from .drift import DriftTest, drift_test
 from .faults import BIAS_LEVEL, Fault, find_faults
 from .integrands.protocol import Integrand
 from .measurements import Measurement, grow, kept_points
+from .moments import Interval, variance_interval
 from .probes import Frequency
 from .slopes import RatePoint, special
 from .sources import SamplerFault
@@ -339,4 +339,9 @@ def seconds_needed(state: State, found: Sequence[Judgement]) -> float | None:
     open_ones = [c for j in found if j.outcome == "open" for c in j.found]
     if all(j.outcome != "open" for j in found):
         return None
-    return budget_needed(open_ones, max(state.seconds, 1.0)) if open_ones else 4 * state.seconds
+    replicates = {m.n: m.replicates for m in state.measurements}
+    return (
+        budget_needed(open_ones, max(state.seconds, 1.0), replicates)
+        if open_ones
+        else 4 * state.seconds
+    )

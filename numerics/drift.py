@@ -77,7 +77,7 @@ def drift_test(
     ----------
     points : sequence of RatePoint
         J points; fewer than 3 are always inconclusive. Errors of log V are taken as normal and
-        independent, which at small levels calls for those of `campaign.relative_error`.
+        independent, which at small levels calls for those of `moments.relative_error`.
     exponent, log_power : float or Fraction
         The claim.
     level : float

@@ -13,9 +13,9 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from .campaign import Interval, Moments, estimates, shifted, update, variance_interval
 from .catalogue_source import CatalogueSource, chunk_size
 from .integrands.protocol import Integrand
+from .moments import Interval, Moments, estimates, shifted, update, variance_interval
 from .probes import Frequency, amplitudes
 from .sources import Source
 from .streams import stream

@@ -315,7 +315,11 @@ def _quadrature(problem: RadialProblem) -> Callable[[], Ball]:
         top = end if power > 0 else start
         turn = flint.acb(0 if top is start else -1)
         steep = flint.acb(power * length)
-        head = flint.acb.integral(lambda x, _: (steep * (x + turn)).exp(), 0, 1).real
+
+        def density(x: Ball, _: bool) -> Ball:
+            return (steep * (x + turn)).exp()
+
+        head = flint.acb.integral(density, 0, 1).real
         value = (log_amplitude + power * top).exp() * length * head
         if low is None or high is None:
             edge = end if high is None else start

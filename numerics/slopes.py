@@ -13,8 +13,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..theory.errors import InputError
-from .campaign import Interval
 from .integrands.protocol import Floats
+from .moments import Interval
 
 Exponent: TypeAlias = float | Fraction
 

@@ -1,9 +1,9 @@
 """Decisions: whether a measured interval agrees with an exact finite-N prediction.
 
 A prediction fails if the measured interval, at a level so small that all tests of a check and all
-looks at growing data together stay below 1e-5, does not meet it. It holds if the interval lies
-within an equivalence margin of it. Else nothing is decided. Nothing is ever decided by a slope
-read off a few points: exact variances and spectra are compared at each N.
+looks at growing data together stay below 1e-5, does not meet it. It holds if its interval of level
+1e-3 lies within an equivalence margin of it. Else nothing is decided. Nothing is ever decided by a
+slope read off a few points: exact variances and spectra are compared at each N.
 
 Predictions of whole samplers are first tested at every frequency; a sampler with the right
 spectrum has the right variances, so that these are a second, independent witness.
@@ -17,9 +17,9 @@ import numpy as np
 
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler
-from .campaign import Interval, variance_interval
 from .integrands.protocol import Integrand, mp
 from .measurements import Measurement, power_interval
+from .moments import Interval, variance_interval
 from .probes import Frequency
 from .spectra import power_array, scaled_power
 from .tails import is_seen
@@ -27,6 +27,9 @@ from .variances import ExactVariance, exact_variance
 
 FALSE_ALARM = 1e-5
 """Probability that a check contradicts a correct claim, over everything it tests."""
+
+EQUIVALENCE_LEVEL = 1e-3
+"""Level of the interval that must lie within the margin for a prediction to hold."""
 
 LOOKS = 12
 """Looks at growing data for which the level is divided."""
@@ -39,6 +42,9 @@ EXPONENT_MARGIN = 0.25
 
 LEAST = 128
 """Replicates below which nothing is contradicted: the intervals are approximate."""
+
+ENOUGH = 1024
+"""Replicates after which the intervals of normal errors lie within the margin."""
 
 _ROUNDING = 1e-20  # |F|² and squared errors below this are rounding errors of zero
 _BOX = 250_000
@@ -75,12 +81,21 @@ class Comparison:
 
 
 def compare(
-    measured: Interval, predicted: float, error_bound: float, replicates: int, seen: bool = True
+    measured: Interval,
+    predicted: float,
+    error_bound: float,
+    replicates: int,
+    seen: bool = True,
+    narrow: Interval | None = None,
 ) -> Outcome:
     """Whether the interval excludes the prediction, lies within the margin, or neither.
 
     Parameters
     ----------
+    measured : Interval
+        At the level of contradictions.
+    narrow : Interval, optional
+        At ``EQUIVALENCE_LEVEL``, for the margin; ``measured`` unless given.
     seen : bool
         Whether the data would have shown rare large values; if not, an interval below the
         prediction says nothing, and none holds.
@@ -94,7 +109,8 @@ def compare(
         return "fails"
     if not seen:
         return "open"
-    inside = measured.low >= low / (1 + MARGIN) and measured.high <= high * (1 + MARGIN)
+    near = narrow or measured
+    inside = near.low >= low / (1 + MARGIN) and near.high <= high * (1 + MARGIN)
     return "holds" if inside else "open"
 
 
@@ -139,7 +155,8 @@ def comparisons(
     found: list[Comparison] = []
     for m, predicted in spectrum.items():
         measured = power_interval(measurement, m, level)
-        outcome = compare(measured, predicted, 1e-13 / n, count)
+        narrow = power_interval(measurement, m, EQUIVALENCE_LEVEL)
+        outcome = compare(measured, predicted, 1e-13 / n, count, narrow=narrow)
         found.append(Comparison("spectrum", m, n, measured, predicted, 1e-13 / n, outcome))
     for f in measurement.integrands:
         if f.name not in variances:
@@ -147,7 +164,8 @@ def comparisons(
         measured = variance_interval(measurement.shifted[f.name], level)
         exact = variances[f.name]
         value, bound = float(exact.value), float(exact.error_bound)
-        outcome = compare(measured, value, bound, count, is_seen(f, n, count))
+        narrow = variance_interval(measurement.shifted[f.name], EQUIVALENCE_LEVEL)
+        outcome = compare(measured, value, bound, count, is_seen(f, n, count), narrow)
         found.append(Comparison("variance", f.name, n, measured, value, bound, outcome))
     return found
 
@@ -159,11 +177,24 @@ def overall_outcome(found: Sequence[Comparison]) -> Outcome:
     return "holds" if found and all(c.outcome == "holds" for c in found) else "open"
 
 
-def budget_needed(found: Sequence[Comparison], seconds: float) -> float:
-    """Seconds after which the widest open interval would lie within the margin."""
-    widest = 1.0
+def budget_needed(
+    found: Sequence[Comparison], seconds: float, replicates: Mapping[int, int]
+) -> float:
+    """A rough number of seconds after which what is open would lie within the margin.
+
+    Parameters
+    ----------
+    replicates : mapping of int to int
+        How many realisations there are at each N. Errors that are about normal are decided with
+        ``ENOUGH`` of them; the widths of many realisations say how many more heavy tails need.
+    """
+    factor = 1.0
     for c in found:
-        if c.outcome == "open" and c.predicted > _ROUNDING and c.measured.estimate > 0:
+        if c.outcome != "open" or c.predicted <= _ROUNDING or c.measured.estimate <= 0:
+            continue
+        count = max(replicates[c.n], 1)
+        factor = max(factor, ENOUGH / count)
+        if count >= ENOUGH / 4:
             width = (c.measured.high - c.measured.low) / (2 * c.measured.estimate)
-            widest = max(widest, min(width / (MARGIN / 2), 1e3))
-    return seconds * widest**2
+            factor = max(factor, min((width / MARGIN) ** 2, 100.0))
+    return 1.5 * seconds * factor

@@ -8,8 +8,8 @@ above 1 - 1e-7, since 1.5 then is more than 10 standard errors.
 
 import numpy as np
 import pytest
-from specrate.numerics.campaign import Moments, update, variance_interval
 from specrate.numerics.generators import generate
+from specrate.numerics.moments import Moments, update, variance_interval
 from specrate.numerics.probes import amplitudes, frequencies, strata_of_claim
 from specrate.numerics.spectra import power_array
 from specrate.numerics.streams import stream

@@ -4,9 +4,9 @@ import time
 
 import numpy as np
 import pytest
-from specrate.numerics.campaign import Interval
 from specrate.numerics.catalogue_source import CatalogueSource, chunk_size, counts_of, open_source
 from specrate.numerics.measurements import Measurement, grow, kept_points, power_interval, scaled
+from specrate.numerics.moments import Interval
 from specrate.numerics.probes import probe
 from specrate.numerics.sources import CallableSource, SamplerFault
 from specrate.theory.errors import InputError

@@ -5,11 +5,11 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from specrate.numerics.campaign import Moments, estimates, shifted, update
 from specrate.numerics.generators import generate
 from specrate.numerics.integrands.ball import Ball
 from specrate.numerics.integrands.bernoulli import Bernoulli
 from specrate.numerics.integrands.grammar import parse_integrand
+from specrate.numerics.moments import Moments, estimates, shifted, update
 from specrate.numerics.spectra import power_array
 from specrate.numerics.streams import stream
 from specrate.numerics.variances import exact_variance

@@ -3,14 +3,15 @@
 from math import inf
 
 import pytest
-from specrate.numerics.campaign import Interval, Moments, update
 from specrate.numerics.catalogue_source import CatalogueSource
 from specrate.numerics.checks import _FIRST, _MOST, _bias_level, run_check
 from specrate.numerics.checks import LOOKS as CHECK_LOOKS
 from specrate.numerics.measurements import Measurement, grow
+from specrate.numerics.moments import Interval, Moments, update
 from specrate.numerics.probes import probe
 from specrate.numerics.spectra import scaled_power
 from specrate.numerics.verdicts import (
+    ENOUGH,
     FALSE_ALARM,
     LEAST,
     LOOKS,
@@ -71,10 +72,20 @@ def test_one_failure_fails_and_all_must_hold():
     assert overall_outcome(outcomes("holds", "open", "fails")) == "fails"
 
 
-def test_budget_grows_with_the_square_of_the_width():
-    (wide,) = outcomes("open")  # half-width 3/4 is to become 1/8
-    assert budget_needed([wide], 2.0) == pytest.approx(2.0 * 6**2)
-    assert budget_needed(outcomes("holds"), 2.0) == 2.0
+def test_budget_grows_with_the_replicates_that_are_missing():
+    (wide,) = outcomes("open")  # half-width 3/4 is to become 1/4
+    assert budget_needed([wide], 2.0, {wide.n: 128}) == pytest.approx(1.5 * 2.0 * ENOUGH / 128)
+    assert budget_needed([wide], 2.0, {wide.n: 8 * ENOUGH}) == pytest.approx(1.5 * 2.0 * 3**2)
+    assert budget_needed([], 2.0, {}) == pytest.approx(3.0)
+
+
+def test_holding_is_judged_at_the_equivalence_level():
+    """The wide interval of contradictions need not lie within the margin, the narrow one must."""
+    wide, near, far = Interval(1.0, 0.6, 1.6), Interval(1.0, 0.9, 1.1), Interval(1.2, 1.05, 1.3)
+    assert compare(wide, 1.0, 0.0, 512) == "open"
+    assert compare(wide, 1.0, 0.0, 512, narrow=near) == "holds"
+    assert compare(wide, 1.0, 0.0, 512, narrow=far) == "open"
+    assert compare(wide, 2.0, 0.0, 512, narrow=near) == "fails"
 
 
 def test_looks_cover_all_rounds_and_the_last_word():

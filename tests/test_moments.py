@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import special
-from specrate.numerics.campaign import (
+from specrate.numerics.integrands import parse_integrand
+from specrate.numerics.moments import (
     Moments,
     estimates,
     merge,
@@ -20,7 +21,6 @@ from specrate.numerics.campaign import (
     update,
     variance_interval,
 )
-from specrate.numerics.integrands import parse_integrand
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 
@@ -103,7 +103,7 @@ def test_estimates_in_blocks(monkeypatch):
     f = parse_integrand("gaussian", 1)
     points = stream(5).random((7, 5, 1))
     whole = estimates(f, points)
-    monkeypatch.setattr("specrate.numerics.campaign._BLOCK", 12)
+    monkeypatch.setattr("specrate.numerics.moments._BLOCK", 12)
     np.testing.assert_array_equal(estimates(f, points), whole)
 
 
