@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from ..theory.errors import InputError
 from ..theory.radial import Leading, PowerLog, Radial, leading, power_log_terms
@@ -25,6 +26,7 @@ from .integrands.protocol import Mpf, mp
 _NUMBER = re.compile(
     r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"
 )
+_LONGEST = 40  # in t = log ρ: over longer pieces mpmath.quad loses digits and does not say so
 _LOG = re.compile(r"log:([+-]?\d{1,9}(\.\d{0,60})?)")
 
 
@@ -356,8 +358,17 @@ def by_mpmath(problem: RadialProblem, digits: int = 15) -> Mpf:
         breaks = sorted({mp.log(rho0), mp.log(nu)})
         reach = (digits + 10) * mp.log(10)
         slowest = 1 if problem.decay is None else _mpf(problem.decay) - problem.dimension
-        points = [breaks[0] - reach, *breaks, breaks[-1] + reach / slowest]
-        return +(_mpf(problem.gamma) / n * mp.quad(density, points))
+        ends = [breaks[0] - reach, *breaks, breaks[-1] + reach / slowest]
+        points = [
+            low + (high - low) * k / parts
+            for low, high in pairwise(ends)
+            for parts in [max(1, int(mp.ceil((high - low) / _LONGEST)))]
+            for k in range(parts)
+        ]
+        # mpmath.quad stops at an absolute error: make the largest value about 1.
+        top = max(density(t - mp.mpf("0.01")) for t in breaks)  # inside: at ρ0 P_f may be 0
+        total = mp.quad(lambda t: density(t) / top, [*points, ends[-1]])  # pyright: ignore[reportUnknownLambdaType]
+        return +(_mpf(problem.gamma) / n * top * total)
 
 
 def _mpf(value: Fraction) -> Mpf:
