@@ -21,16 +21,19 @@ from ..theory.samplers import Sampler
 from .checks import Judgement, State, judgements, matching, rate_points, run_check, seconds_needed
 from .integrands.bernoulli import Bernoulli
 from .integrands.protocol import Integrand
+from .left_out import left_out
 from .measurements import Measurement
 from .moments import Interval, Moments, variance_interval
-from .probes import Frequency, Support, integrand_supports, probed_supports, support_of_frequency
+from .probes import Frequency, Support, probed_supports, support_of_frequency
 from .slopes import fit_slope
+from .variances import ExactVariance
 from .verdicts import (
     EQUIVALENCE_LEVEL,
     FALSE_ALARM,
     MARGIN,
     Comparison,
     Outcome,
+    exponent_margin,
     spectrum_predictions,
 )
 
@@ -93,8 +96,9 @@ def check(
         old = read_plan(Path(plan))
         steps = [(s["n"], s["replicates"], s["attempted"]) for s in old["ladder"]]
         words = words or old["sources"]
+        asked = old.get("asked", ())
         state = run_check(
-            words, old["dim"], old["claims"], old["integrands"], (), budget, old["seed"], steps
+            words, old["dim"], old["claims"], old["integrands"], asked, budget, old["seed"], steps
         )
     return document(state)
 
@@ -142,15 +146,16 @@ def document(state: State) -> Document:
         "regions": [_region(s, measured, claimed, failing) for s in _supports(state)],
         "blocks": None,
         "rates": [r for f in _integrands(state) for r in [_rate(state, f, claimed, found)] if r],
-        "points": [p for f in _integrands(state) for p in _points(state, f, measured, claimed)],
+        "points": [p for f in _integrands(state) for p in _points(state, f, measured)],
         "claims": [_claim(j) for j in found],
         "matches": [s.name for s, outcome in matched if outcome == "holds"],
-        "left_out": _left_out(state),
+        "left_out": left_out(state, found),
         "n_range": [measured[0].n, measured[-1].n] if measured else None,
         "level": state.level,
         "false_alarm": FALSE_ALARM,
         "margin": MARGIN,
         "equivalence_level": EQUIVALENCE_LEVEL,
+        "exponent_margin": exponent_margin(asked.dim),
         "budget_needed_seconds": seconds_needed(state, found),
         "interrupted": state.interrupted,
         "plan": _plan(state),
@@ -181,6 +186,7 @@ def _plan(state: State) -> Document:
     asked = state.design
     return {
         "sources": list(asked.words),
+        "asked": list(state.asked),
         "dim": asked.dim,
         "claims": [c.text for c in asked.claims],
         "integrands": [f.name for f in asked.integrands],
@@ -285,22 +291,15 @@ def predicted_order(sampler: Sampler, integrand: Integrand) -> Order:
     return slowest(orders)
 
 
-def _points(
-    state: State, integrand: Integrand, measured: Sequence[Measurement], claimed: Sampler | None
-) -> list[Document]:
-    exact_by_n: dict[int, str] = {}
-    if claimed is not None:
-        text = next(
-            t for t, _ in ((c.text, c) for c in state.design.claims if isinstance(c, SamplerClaim))
-        )
-        for n, values in state.variances.get(text, {}).items():
-            if integrand.name in values:
-                exact_by_n[n] = f"{float(values[integrand.name].value):.15g}"
+def _points(state: State, integrand: Integrand, measured: Sequence[Measurement]) -> list[Document]:
+    first = next((c.text for c in state.design.claims if isinstance(c, SamplerClaim)), "")
+    exact = {n: v.get(integrand.name) for n, v in state.variances.get(first, {}).items()}
     found: list[Document] = []
     for m in measured:
         if m.replicates < 2:
             continue
         moved, raw = m.shifted[integrand.name], m.raw[integrand.name]
+        told = exact.get(m.n)
         found.append(
             {
                 "integrand": integrand.name,
@@ -310,11 +309,17 @@ def _points(
                 "raw_variance": _interval(_spread(raw)),
                 "raw_mse": _interval(variance_interval(raw, _REPORTED)),
                 "bias": _interval(_bias(raw)),
-                "exact": exact_by_n.get(m.n),
+                "exact": None if told is None else f"{float(told.value):.15g}",
+                "exact_error_bound": None if told is None else _bound(told),
                 "seconds": m.seconds,
             }
         )
     return found
+
+
+def _bound(exact: ExactVariance) -> str:
+    """The exact variance's error, and what 15 printed digits round away."""
+    return f"{float(exact.error_bound) + 1e-15 * abs(float(exact.value)):.2g}"
 
 
 def _spread(raw: Moments) -> Interval:
@@ -371,29 +376,3 @@ def _witness(c: Comparison) -> Document:
         "ratio": gap if isfinite(gap) else None,
         "decades": abs(log(gap)) / log(10) if gap > 0 and isfinite(gap) else None,
     }
-
-
-def _left_out(state: State) -> list[Document]:
-    asked, found = state.design, list[Document]()
-    d = asked.dim
-
-    def leave(what: str, why: str) -> None:
-        found.append({"what": what, "why": why})
-
-    leave("fitted profile", "degree and effective count per region are not yet fitted to the data")
-    if d > 3 and _supports(state):
-        leave("supports of 3 coordinates and more", "axes, pairs and the full support are probed")
-        kept = ", ".join("{" + _named(s) + "}" for s in integrand_supports(d))
-        leave("variances on other supports", f"integrands probe {kept}; spectra probe the rest")
-    if asked.claims and not asked.claimed_samplers:
-        leave("spectrum and catalogue matches", "only exponents are claimed")
-    for m in state.measurements:
-        missing = [t for t, by_n in state.spectra.items() if m.n not in by_n]
-        for text in missing:
-            leave(
-                f"{text} at N = {m.n}",
-                "the claimed sampler has no realisations of that many points",
-            )
-        if m.replicates == 1:
-            leave(f"spectrum at N = {m.n}", "one realisation has one |F|²: no expectation")
-    return found

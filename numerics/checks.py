@@ -35,13 +35,13 @@ from .sources import SamplerFault
 from .tails import is_resolved, is_seen
 from .variances import ExactVariance
 from .verdicts import (
-    EXPONENT_MARGIN,
     FALSE_ALARM,
     LOOKS,
     Comparison,
     Outcome,
     budget_needed,
     comparisons,
+    exponent_margin,
     overall_outcome,
     spectrum_predictions,
     variance_predictions,
@@ -83,6 +83,7 @@ class State:
     )
     faults: list[Fault] = field(default_factory=list[Fault])
     judged: set[int] = field(default_factory=set[int])
+    asked: tuple[int, ...] = ()
     seconds: float = 0.0
     interrupted: bool = False
 
@@ -146,7 +147,7 @@ def run_check(
         raise InputError(f"--budget must be a positive number of seconds: got {budget}")
     began = time.perf_counter()
     asked = design(words, dim, claims, integrands, seed)
-    state = State(asked, FALSE_ALARM, [])
+    state = State(asked, FALSE_ALARM, [], asked=tuple(counts))
     try:
         _prepare(state, [n for n, *_ in steps] if steps else counts)
         if steps:
@@ -274,7 +275,7 @@ def _rate_judgement(state: State, claim: RateClaim) -> Judgement:
         float(claim.exponent),
         float(claim.log_power),
         state.level,
-        margin=EXPONENT_MARGIN,
+        margin=exponent_margin(state.design.dim),
     )
     outcomes: dict[str, Outcome] = {"contradicted": "fails", "consistent": "holds"}
     return Judgement(claim, outcomes.get(drift.verdict, "open"), drift=drift)
@@ -335,13 +336,13 @@ def matching(state: State) -> list[tuple[Sampler, Outcome]]:
 
 
 def seconds_needed(state: State, found: Sequence[Judgement]) -> float | None:
-    """Budget that would decide what is open; None if nothing is."""
-    open_ones = [c for j in found if j.outcome == "open" for c in j.found]
-    if all(j.outcome != "open" for j in found):
+    """Budget that would decide what is open; None if nothing is, or if no budget would."""
+    held = state.design.source.realisations
+    exhausted = held is not None and all(m.replicates == held[m.n] for m in state.measurements)
+    if all(j.outcome != "open" for j in found) or exhausted or state.interrupted or state.faults:
         return None
-    replicates = {m.n: m.replicates for m in state.measurements}
-    return (
-        budget_needed(open_ones, max(state.seconds, 1.0), replicates)
-        if open_ones
-        else 4 * state.seconds
-    )
+    open_ones = [c for j in found if j.outcome == "open" for c in j.found]
+    seconds = max(state.seconds, 1.0)
+    if not open_ones:
+        return 4 * seconds
+    return budget_needed(open_ones, seconds, {m.n: m.replicates for m in state.measurements})

@@ -243,9 +243,12 @@ def _rate_targets(claim: RateClaim, dim: int) -> tuple[int, ...]:
 
 
 def _spectrum_targets(dim: int) -> list[int]:
-    """Perfect powers, so that grids, pairs of axes and blocks all have their strata."""
+    """Perfect powers, so that grids, pairs of axes and blocks all have their strata.
+
+    Not all are powers of two: a sampler may be right at these alone.
+    """
     if dim <= 2 or dim > 6:
-        return [16, 64, 256]
+        return [16, 100, 256] if dim <= 2 else [16, 64, 256]
     return {3: [27, 64, 729], 4: [16, 81, 256], 5: [32, 243, 1024], 6: [64, 729]}[dim]
 
 

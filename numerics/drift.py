@@ -111,11 +111,11 @@ def drift_test(
     chi2 = _least_chi2(ladder, float(exponent), rising_drift)
     fit_chi2, v, delta = _best_drift(ladder, float(exponent), bounds[0])
     low, high = _exponents(ladder, threshold, bounds)
-    inside = abs(low - float(exponent)) <= margin and abs(high - float(exponent)) <= margin
+    inside = low <= exponent <= high and max(exponent - low, high - exponent) <= margin
     verdict: Verdict = "inconclusive"
     if len(points) >= 3 and chi2 > threshold:
         verdict = "contradicted"
-    elif len(points) >= 3 and inside:
+    elif len(points) >= 3 and inside:  # and so not beside the claim, however near
         verdict = "consistent"
     found = isfinite(low)
     return DriftTest(

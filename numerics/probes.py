@@ -63,7 +63,7 @@ def frequencies(n: int, dim: int, strata: Sequence[int] = ()) -> tuple[Frequency
         if len(support) == 1:
             found |= dict.fromkeys(_placed(dim, support, (k,)) for k in along)
         elif len(support) == 2:
-            pairs = [(1, 1), (1, -1), (2, 1), *((c, 1) for c in across), *((c, c) for c in across)]
+            pairs = [p for c in (1, *across) for p in ((c, 1), (c, -1), (1, -c), (c, c), (c, -c))]
             found |= dict.fromkeys(_placed(dim, support, p) for p in pairs)
         else:
             found |= dict.fromkeys(_placed(dim, support, (k,) * dim) for k in (1, *across[-1:]))

@@ -38,7 +38,13 @@ MARGIN = 0.25
 """Equivalence margin of ratios: within [1/(1 + margin), 1 + margin] of the prediction."""
 
 EXPONENT_MARGIN = 0.25
-"""Equivalence margin of exponents."""
+"""Largest equivalence margin of exponents, absolute."""
+
+
+def exponent_margin(dim: int) -> float:
+    """Half the gap 1/d between 1 + 1/d and 1 + 2/d, which a margin must tell apart."""
+    return min(EXPONENT_MARGIN, 0.5 / dim)
+
 
 LEAST = 128
 """Replicates below which nothing is contradicted: the intervals are approximate."""

@@ -330,5 +330,6 @@ def _ends(document: Document) -> Iterator[str]:
     yield (
         f"A correct claim is contradicted with probability at most {document['false_alarm']:.0e} "
         f"(level {document['level']:.0e} per comparison); it holds where the interval lies "
-        f"within {document['margin']:.0%} of the claimed value."
+        f"within {document['margin']:.0%} of the claimed spectrum or variance, or, holding the "
+        f"claimed exponent, within {document['exponent_margin']:.2g} of it."
     )

@@ -8,6 +8,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
 from pathlib import Path
 from typing import NoReturn, TypeAlias
 
@@ -26,19 +27,25 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     parsed = _parser().parse_args(arguments)
+    try:
+        return _run(parsed)
+    except KeyboardInterrupt:  # also while the rooms are being imported
+        print("specrate: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _run(parsed: argparse.Namespace) -> int:
     from ..theory.errors import InputError
 
     code = DONE
     try:
         _check_writable(parsed.output)
-        text, code = parsed.run(parsed)
+        with redirect_stdout(sys.stderr):  # what a sampler prints is no part of the document
+            text, code = parsed.run(parsed)
         _write(text, parsed.output)
     except InputError as error:
         print(f"specrate: {error}", file=sys.stderr)
         return UNUSABLE
-    except KeyboardInterrupt:
-        print("specrate: interrupted", file=sys.stderr)
-        return INTERRUPTED
     except BrokenPipeError:  # the reader, such as head, has closed
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return code
@@ -135,7 +142,7 @@ def _add_check(commands: Commands) -> None:
     p.add_argument("--integrand", action="append", default=[], metavar="I", help="repeatable")
     p.add_argument("--n", action="append", default=[], type=int, metavar="N", help="repeatable")
     p.add_argument("--budget", type=float, default=10.0, metavar="SECONDS", help="a cap")
-    p.add_argument("--seed", type=int, default=0, metavar="S")
+    p.add_argument("--seed", type=int, metavar="S", help="0 unless given")
     p.add_argument("--plan", metavar="FILE", help="replay what a document's check executed")
     _add_format(p)
 
@@ -175,11 +182,15 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
 
     if a.plan is None and (not a.source or a.dim is None):
         raise InputError("check needs a SOURCE and --dim (or --plan): got neither or one")
+    if a.plan is not None and (a.claim or a.integrand or a.n or a.seed is not None):
+        raise InputError("--plan brings its own claims, integrands, N and seed: got others as well")
     from ..numerics import check
     from .check_formats import render
 
     dim = 1 if a.dim is None else a.dim  # a plan names its own
-    document = check(a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed, a.plan, _progress)
+    document = check(
+        a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed or 0, a.plan, _progress
+    )
     verdicts = {"consistent": DONE, "contradicted": CONTRADICTED, "invalid": CONTRADICTED}
     code = (
         INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)

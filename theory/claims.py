@@ -61,7 +61,9 @@ def parse_claim(text: str, dim: int) -> Claim:
     region, slash, decay = left.partition("/")
     if not slash or not region.strip() or not decay.strip():
         raise InputError(f"{_RULE}: got {text!r}")
-    exponent, _, power = right.strip().partition("log")
+    exponent, log, power = right.strip().partition("log")
+    if log and not power.strip():
+        raise InputError(f"{_RULE}: got no Q in {text!r}")
     found = RateClaim(
         words,
         region.strip(),

@@ -19,6 +19,8 @@ from .samplers import FAMILIES, Sampler, parse_sampler
 from .signs import symbol
 from .symbolic import Expr, Integer
 
+_LONGEST_DIM = 6
+
 
 @dataclass(frozen=True)
 class Row:
@@ -122,6 +124,8 @@ def parse_dim(text: str | int) -> Expr:
     """A dimension of the grammar: a whole number of at least 1, or ``d``."""
     if isinstance(text, int):
         return parse_size(str(text))
+    if len(text.strip()) > _LONGEST_DIM:
+        raise InputError(f"a dimension has at most {_LONGEST_DIM} digits: got {text!r}")
     if not (text.strip() == "d" or is_whole(text.strip())):
         raise InputError(f"a dimension is a whole number or d: got {text!r}")
     return parse_size(text, {"d": symbol("d")})
