@@ -287,7 +287,7 @@ def predicted_order(sampler: Sampler, integrand: Integrand) -> Order:
     for region in supports:
         q = shell_exponent(decay, layout, region)
         if q is not None:
-            orders += [m.order_at(q) for m in profile_of(sampler, region)]
+            orders += [m.order_at(q, (), decay.is_product) for m in profile_of(sampler, region)]
     return slowest(orders)
 
 

@@ -36,6 +36,7 @@ def render(
 ) -> str:
     """The table in one of the formats of the command line."""
     found = table(samplers, dims, integrands, primitive, constants=form in ("json", "csv"))
+    _check_parameters(integrands, dims)
     meetings = _crossovers(found, integrands) if primitive == "point" else []
     if form == "json":
         whole = document(found)
@@ -52,6 +53,24 @@ def render(
     rows = [_cells(r, mark, order_text(r.order)) for r, mark in _merged(found.rows)]
     lines = [_title(found), "", aligned(_HEAD, without_repeats(rows, 3)), ""]
     return "\n".join(lines + _notes(found, meetings)).rstrip()
+
+
+def _check_parameters(integrands: Sequence[str], dims: Sequence[str]) -> None:
+    """Refuse parameters out of range; rates do not depend on them, but a row shows them.
+
+    Raises
+    ------
+    InputError
+        If an integrand could not be built.
+    """
+    given = [i for i in integrands if ":" in i]
+    if not given:
+        return
+    from ..numerics.integrands.grammar import parse_integrand
+
+    for text in given:
+        for dim in dims:
+            parse_integrand(text, int(dim) if dim.strip().isdigit() else 2)
 
 
 def _csv(found: Table) -> str:
@@ -182,6 +201,8 @@ def _legend(found: Table) -> Iterator[str]:
         yield "region: frequencies within one block of jointly stratified coordinates, or across"
     if any(r.replace(",", "").isdigit() for r in regions):
         yield "region 1,3: frequencies that are not zero in coordinates 1 and 3 alone"
+    if any(r.primitive == "segment" for r in found.rows):
+        yield "segments lie along the last axis; a row holds the slower of the regions it joins"
     if any(order_text(r.order) == "0" for r in found.rows):
         yield "variance 0: it falls faster than every power of N"
     if any(r.sampler.startswith("isotropic") and not _is_number(r) for r in found.rows):

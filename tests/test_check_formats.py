@@ -131,7 +131,13 @@ def test_markdown_leads_with_the_verdict(contradicted: Document) -> None:
 def test_faults_come_second() -> None:
     points = {"verdict": "invalid", "plan": {"sources": ["x.py:f"], "dim": 2}, "n_range": None}
     rest = {"claims": [], "matches": [], "regions": [], "points": [], "rates": [], "left_out": []}
-    numbers = {"seconds": 0.1, "level": 1e-9, "false_alarm": 1e-5, "margin": 0.25}
+    numbers = {
+        "seconds": 0.1,
+        "level": 1e-9,
+        "false_alarm": 1e-5,
+        "margin": 0.25,
+        "exponent_margin": 0.25,
+    }
     document = {**points, **rest, **numbers, "interrupted": True, "budget_needed_seconds": None}
     document["faults"] = [{"kind": "piled points", "detail": "why", "evidence": {}}]
     first, second, *_ = render(document, "terminal").splitlines()

@@ -280,3 +280,31 @@ def test_the_installed_script_runs_this_program() -> None:
     done = subprocess.run([script, "table", "--dim", "zero"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.count("\n") == 1
+
+
+def test_what_a_sampler_prints_is_no_part_of_the_document(tmp_path, capsys):
+    module = tmp_path / "loud.py"
+    module.write_text(
+        "def loud(n, dim, rng):\n    print('NOISE')\n    return rng.random((n, dim))\n"
+    )
+    words = ["check", f"{module}:loud", "--dim", "2", "--claim", "random", "--budget", "0.1"]
+    main([*words, "--format", "json"])
+    out, err = capsys.readouterr()
+    assert json.loads(out)["plan"]["dim"] == 2
+    assert "NOISE" in err
+
+
+@pytest.mark.parametrize("extra", [["--claim", "random"], ["--seed", "5"], ["--n", "16"]])
+def test_a_plan_stands_alone(extra, capsys):
+    assert main(["check", "--plan", "a.json", *extra]) == 2
+    assert "--plan brings its own" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "integrand", ["disk:radius=2", "disk:radius=-1", "disk:foo=1", "box:size=3"]
+)
+def test_a_table_refuses_parameters_out_of_range(integrand, capsys):
+    assert main(["table", "--dim", "2", "--sampler", "jitter", "--integrand", integrand]) == 2
+    out, err = capsys.readouterr()
+    assert not out
+    assert err.count("\n") == 1

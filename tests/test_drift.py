@@ -206,3 +206,14 @@ def test_unusable_requests_are_refused():
         drift_test(data, 1, level=0)
     with pytest.raises(InputError, match="rising_drift"):
         drift_test(data, 1, rising_drift=1)
+
+
+def test_a_claim_beside_the_interval_is_never_consistent():
+    """N^-3/2 to 1 %: 1.4 is within the margin of every exponent allowed, and yet not among them."""
+    points = [RatePoint(n, n**-1.5, 0.002) for n in (16, 64, 256, 1024, 4096)]
+    assert drift_test(points, 1.5).verdict == "consistent"
+    for exponent in (1.3, 1.4, 1.62, 1.7):
+        found = drift_test(points, exponent)
+        assert found.low is not None
+        assert not found.low <= exponent <= found.high
+        assert found.verdict != "consistent"

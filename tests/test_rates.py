@@ -3,6 +3,9 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.integrands.grammar import parse_integrand
+from specrate.numerics.integrands.protocol import mp
+from specrate.numerics.variances import exact_variance
 from specrate.theory.decays import parse_decay
 from specrate.theory.dominance import Case, dominates
 from specrate.theory.errors import UndecidedSign
@@ -176,3 +179,31 @@ def test_low_frequency_constant_of_correlated_multi_jitter_has_two_forms():
     expected = sympy.pi**2 * (m1 + m2) / 3 + sympy.pi**4 * mixed / 9
     assert sympy.expand(constant - expected) == 0
     assert order == Order(Integer(3))
+
+
+@pytest.mark.parametrize(
+    ("name", "dim", "axes", "k"),
+    [
+        ("regular", 2, (1, 2), 1),
+        ("regular", 2, (1,), 2),
+        ("regular", 3, (1, 3), 2),
+        ("regular:N^1/3xN^2/3", 2, (1, 2), 1),
+        ("correlated-multi-jitter", 2, (1, 2), 1),
+        ("correlated-multi-jitter", 2, (1, 2), 2),
+        ("jitter:N^1/3xN^2/3", 2, (1, 2), 1),
+        ("multi-jitter", 3, (2, 3), 1),
+    ],
+)
+def test_products_under_combs_have_the_slope_of_their_exact_variance(name, dim, axes, k):
+    """The teeth of a comb are where a product's power is thinnest: ∏ |m_i|^-2k, not |m|^-p."""
+    sampler = parse_sampler(name, dim)
+    text = f"bernoulli:k={k},axes=({','.join(map(str, axes))})"
+    rates = region_rates(sampler, parse_decay(text))
+    (case,) = overall(rates, ())
+    variance = []
+    for target in (10**12, 10**15):
+        counts = sampler.counts_at(target)
+        exact = exact_variance(sampler, counts, parse_integrand(text, dim)).value
+        variance.append((mp.log(counts["N"]), mp.log(exact)))
+    (x0, y0), (x1, y1) = variance
+    assert float((y0 - y1) / (x1 - x0)) == pytest.approx(float(case.order.exponent), abs=2e-3)

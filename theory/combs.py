@@ -22,12 +22,17 @@ from .symbolic import Expr, FracElement, Integer, sympy
 
 @dataclass(frozen=True)
 class Comb:
-    """Mean of a comb above its first alias: constant · N^height for |m| >= scale · N^threshold."""
+    """Mean of a comb above its first alias: constant · N^height for |m| >= scale · N^threshold.
+
+    ``spread`` is the sum of the exponents of the counts over the comb's axes: its teeth have
+    every one of these coordinates beyond its count, ∏ |m_i| >= N^spread.
+    """
 
     threshold: Expr
     height: Expr
     constant: Expr
     scale: Expr = Integer(1)
+    spread: Expr = Integer(0)
 
 
 def combs_of(kernel: Kernel, layout: Layout, region: Region) -> tuple[Comb, ...]:
@@ -45,15 +50,16 @@ def _means(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[
         if lead is None:
             continue
         height, constant = lead
-        threshold, scale = Integer(0), Integer(1)
+        threshold, scale, spread = Integer(0), Integer(1), Integer(0)
         for count, axes in combs:  # the comb meets one frequency in n on each of its axes
             exponent, factor = leading_power(count, layout.growth, region.assumptions)
+            spread = spread + axes * exponent
             height, constant = height - axes * exponent, constant / factor**axes
             if exponent == threshold:
                 scale = sympy.Max(scale, factor)
             elif nonnegative(exponent - threshold, region.assumptions):
                 threshold, scale = exponent, factor
-        yield Comb(threshold, sympy.expand(height), constant, scale)
+        yield Comb(threshold, sympy.expand(height), constant, scale, sympy.expand(spread))
 
 
 def _comb_terms(term: Term, counts: tuple[Expr, ...]) -> Iterator[tuple[Bases, Coefficient]]:

@@ -49,6 +49,11 @@ class Decay:
     axes: tuple[int, ...] = ()
     powers: tuple[tuple[str, Expr], ...] = ()
 
+    @property
+    def is_product(self) -> bool:
+        """Whether the power on a support falls as a product over its coordinates."""
+        return self.family in ("box", "product", "bernoulli")
+
 
 def per_region(powers: Mapping[str, Expr | int]) -> Decay:
     """A class with its own decay p on each named region, and no power on any other.

@@ -127,7 +127,7 @@ def _region_steps(sampler: Sampler, decay: Decay, name: str, rate: RegionRate) -
         )
     for monomial in saturated(sampler, rate):
         if monomial.degree is sympy.oo:
-            yield from _alias_steps(name, rate, monomial)
+            yield from _alias_steps(decay, name, rate, monomial)
         else:
             yield _profile_step(sampler, name, rate, monomial)
             yield _integrand_step(decay, name, rate)
@@ -277,18 +277,20 @@ def _leading_step(
     return Step(name, "Eq. 23" if rate.q is sympy.oo else "Eq. 21", text, latex, reason)
 
 
-def _alias_steps(name: str, rate: RegionRate, step: SaturatingMonomial) -> Iterator[Step]:
-    order = step.order_at(rate.q, rate.region.assumptions)
+def _alias_steps(
+    decay: Decay, name: str, rate: RegionRate, step: SaturatingMonomial
+) -> Iterator[Step]:
+    order = step.order_at(rate.q, rate.region.assumptions, decay.is_product)
     first = expression_text(step.scale * N**step.effective)
     if rate.q is sympy.oo:
         text = f"V = 0 once the first alias {first} lies beyond rho_0"
         latex = rf"V = 0,\quad {expression_latex(step.scale * N**step.effective)}>\rho_0"
         yield Step(name, "Eq. 22", text, latex, "a comb has no power below its first alias")
         return
-    p = sympy.expand(rate.region.dimension + rate.q)
-    text = f"V = sum over aliases m of c_f {raised('|m|', -p)} = Theta({order_text(order)})"
+    fall, fall_latex = _fall(decay, rate)
+    text = f"V = sum over aliases m of c_f {fall} = Theta({order_text(order)})"
     latex = (
-        rf"V = \sum_{{m \in \mathrm{{aliases}}}} c_f\,|m|^{{{expression_latex(-p)}}}"
+        rf"V = \sum_{{m \in \mathrm{{aliases}}}} c_f\,{fall_latex}"
         rf" = \Theta({order_latex(order)})"
     )
     reason = (
@@ -296,6 +298,16 @@ def _alias_steps(name: str, rate: RegionRate, step: SaturatingMonomial) -> Itera
         f", above it N P_S is of order {expression_text(N**step.plateau_exponent)} in the mean"
     )
     yield Step(name, "Eq. 17", text, latex, reason)
+
+
+def _fall(decay: Decay, rate: RegionRate) -> tuple[str, str]:
+    """How the integrand's power falls with m, as text and LaTeX."""
+    assert rate.q is not None
+    if decay.is_product:
+        power = -(rate.q + 1)
+        return f"prod_i {raised('|m_i|', power)}", rf"\prod_i|m_i|^{{{expression_latex(power)}}}"
+    p = sympy.expand(rate.region.dimension + rate.q)
+    return raised("|m|", -p), rf"|m|^{{{expression_latex(-p)}}}"
 
 
 def _sum_step(

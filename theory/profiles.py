@@ -40,6 +40,8 @@ class SaturatingMonomial:
         asked for the supremum, which no exponent depends on.
     scale : sympy.Expr
         α of a step, whose first alias is at α N^e; 1 otherwise.
+    spread : sympy.Expr
+        Of a step: its teeth have ∏ |m_i| >= N^spread over the axes of the comb; 0 otherwise.
     form : tuple
         The angular form behind the coefficient, as powers per group with their constants.
     """
@@ -50,6 +52,7 @@ class SaturatingMonomial:
     plateau_exponent: Expr = Integer(0)
     plateau: Expr = Integer(1)
     scale: Expr = Integer(1)
+    spread: Expr = Integer(0)
     form: tuple[tuple[Powers, Expr], ...] = field(default=(), compare=False)
 
     @property
@@ -59,8 +62,18 @@ class SaturatingMonomial:
             return None
         return (self.plateau / self.coefficient) ** (1 / self.degree)
 
-    def order_at(self, q: Expr, assumptions: Assumptions = ()) -> Order:
-        """Order of the variance against an integrand whose shell energies fall as ρ^-q."""
+    def order_at(self, q: Expr, assumptions: Assumptions = (), product: bool = False) -> Order:
+        """Order of the variance against an integrand whose shell energies fall as ρ^-q.
+
+        Parameters
+        ----------
+        product : bool
+            Whether the power falls as a product ∏ |m_i|^-(q+1) and not with the length of m. The
+            teeth of a comb are then in the thinnest part of the shell, and the exponent is
+            1 − g + q · spread.
+        """
+        if product and self.degree is sympy.oo and q is not sympy.oo:
+            return Order(1 - self.plateau_exponent + q * self.spread)
         return saturated_order(self, q, assumptions)
 
 
@@ -171,7 +184,7 @@ def _monomial(
 
 def _step(comb: Comb) -> SaturatingMonomial:
     return SaturatingMonomial(
-        sympy.oo, comb.threshold, None, comb.height, comb.constant, comb.scale
+        sympy.oo, comb.threshold, None, comb.height, comb.constant, comb.scale, comb.spread
     )
 
 

@@ -91,7 +91,7 @@ def _rate(sampler: Sampler, decay: Decay, primitive: Primitive, region: Region) 
     if q is None:
         return RegionRate(region, (), None, None)
     profile = profile_of(sampler, region)
-    orders = [m.order_at(q, region.assumptions) for m in profile]
+    orders = [m.order_at(q, region.assumptions, decay.is_product) for m in profile]
     return RegionRate(region, profile, q, slowest(orders, region.assumptions))
 
 
