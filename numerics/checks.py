@@ -8,7 +8,6 @@ executed is written down as a plan, which replays to the same document.
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import log
 
 from ..theory.claims import RateClaim, SamplerClaim
 from ..theory.errors import InputError
@@ -28,9 +27,9 @@ from .drift import DriftTest, drift_test
 from .faults import BIAS_LEVEL, Fault, find_faults
 from .integrands.protocol import Integrand
 from .measurements import Measurement, grow, kept_points
-from .moments import Interval, variance_interval
+from .moments import Interval, log_error, variance_interval
 from .probes import Frequency
-from .slopes import RatePoint, special
+from .slopes import RatePoint
 from .sources import SamplerFault
 from .tails import is_resolved, is_seen
 from .variances import ExactVariance
@@ -302,7 +301,7 @@ def rate_points(
         parts = [variance_interval(m.shifted[f.name], level) for f in integrands]
         total = Interval(*(sum(p[i] for p in parts) for i in range(3)))
         if total.low > 0 and total.high < float("inf"):
-            found.append(RatePoint(m.n, total.estimate, _log_error(total, level)))
+            found.append(RatePoint(m.n, total.estimate, log_error(total, level)))
     return found
 
 
@@ -313,12 +312,6 @@ def _is_telling(m: Measurement, integrands: Sequence[Integrand]) -> bool:
         and m.shifted[f.name].mse > _NOISE * (float(f.total(17)) + float(f.mean(17)) ** 2)
         for f in integrands
     )
-
-
-def _log_error(interval: Interval, level: float) -> float:
-    """Standard error of the logarithm whose normal interval at the level covers the interval."""
-    widest = max(log(interval.high / interval.estimate), log(interval.estimate / interval.low))
-    return max(widest / -float(special().ndtri(level / 2)), 1e-9)
 
 
 def matching(state: State) -> list[tuple[Sampler, Outcome]]:

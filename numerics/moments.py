@@ -6,7 +6,7 @@ Errors are taken about the known integral I, so that their second moment is the 
 """
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import inf, log, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -178,11 +178,21 @@ def relative_error(moments: Moments, level: float) -> float:
     At small levels it exceeds ``sqrt(2/nu)``, because log chi^2 has a long lower tail: a fit that
     treats log V as normal needs this width to keep its level.
     """
-    estimate, low, high = variance_interval(moments, level)
-    if estimate == 0:
-        raise InputError("a relative error needs 0 < variance: got 0")
-    widest = max(np.log(high / estimate), np.log(estimate / low))
-    return float(widest / -_special().ndtri(level / 2))
+    return log_error(variance_interval(moments, level), level)
+
+
+def log_error(interval: Interval, level: float) -> float:
+    """Standard error of the logarithm whose normal interval at the level covers the interval.
+
+    Raises
+    ------
+    InputError
+        If the interval reaches 0.
+    """
+    if interval.low <= 0:
+        raise InputError(f"a relative error needs 0 < variance: got {interval.low}")
+    widest = max(log(interval.high / interval.estimate), log(interval.estimate / interval.low))
+    return max(widest / -float(_special().ndtri(level / 2)), 1e-9)
 
 
 def _freedom(moments: Moments, z: float) -> float:

@@ -202,5 +202,5 @@ def budget_needed(
         factor = max(factor, ENOUGH / count)
         if count >= ENOUGH / 4:
             width = (c.measured.high - c.measured.low) / (2 * c.measured.estimate)
-            factor = max(factor, min((width / MARGIN) ** 2, 100.0))
+            factor = max(factor, min(width / MARGIN, 10.0) ** 2)  # rare values: width is huge
     return 1.5 * seconds * factor

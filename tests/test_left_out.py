@@ -5,6 +5,8 @@ import json
 import numpy as np
 import pytest
 from specrate.numerics import check
+from specrate.numerics.check_documents import document
+from specrate.numerics.checks import run_check
 from specrate.numerics.pointfiles import write_text
 from specrate.numerics.streams import stream
 
@@ -36,7 +38,8 @@ def test_files_that_are_used_up_ask_for_no_budget(tmp_path):
 
 
 def test_a_decay_faster_than_claimed_is_explained():
-    found = check("latin-hypercube", 2, ["axis/best ~ 1"], budget=2)
+    steps = [(n, 512, 512) for n in (16, 64, 256, 1024)]
+    found = document(run_check(["latin-hypercube"], 2, ["axis/best ~ 1"], steps=steps))
     assert found["claims"][0]["holds"] is None
     assert "crossover" in told(found)["a decision on axis/best ~ 1"]
 

@@ -1,5 +1,6 @@
 """Decisions on one number, and the accounts of false alarms."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
@@ -77,6 +78,8 @@ def test_budget_grows_with_the_replicates_that_are_missing():
     assert budget_needed([wide], 2.0, {wide.n: 128}) == pytest.approx(1.5 * 2.0 * ENOUGH / 128)
     assert budget_needed([wide], 2.0, {wide.n: 8 * ENOUGH}) == pytest.approx(1.5 * 2.0 * 3**2)
     assert budget_needed([], 2.0, {}) == pytest.approx(3.0)
+    rare = replace(wide, measured=Interval(1.0, 0.1, 1e300))
+    assert budget_needed([rare], 2.0, {wide.n: ENOUGH}) == pytest.approx(1.5 * 2.0 * 100)
 
 
 def test_holding_is_judged_at_the_equivalence_level():
