@@ -23,7 +23,7 @@ from .integrands.bernoulli import Bernoulli
 from .integrands.protocol import Integrand
 from .left_out import left_out
 from .measurements import Measurement
-from .moments import Interval, Moments, variance_interval
+from .moments import Interval, bias_interval, spread_interval, variance_interval
 from .probes import Frequency, Support, probed_supports, support_of_frequency
 from .slopes import fit_slope
 from .variances import ExactVariance
@@ -306,9 +306,9 @@ def _points(state: State, integrand: Integrand, measured: Sequence[Measurement])
                 "n": m.n,
                 "replicates": m.replicates,
                 "variance": _interval(variance_interval(moved, _REPORTED)),
-                "raw_variance": _interval(_spread(raw)),
+                "raw_variance": _interval(spread_interval(raw, _REPORTED)),
                 "raw_mse": _interval(variance_interval(raw, _REPORTED)),
-                "bias": _interval(_bias(raw)),
+                "bias": _interval(bias_interval(raw)),
                 "exact": None if told is None else f"{float(told.value):.15g}",
                 "exact_error_bound": None if told is None else _bound(told),
                 "seconds": m.seconds,
@@ -320,18 +320,6 @@ def _points(state: State, integrand: Integrand, measured: Sequence[Measurement])
 def _bound(exact: ExactVariance) -> str:
     """The exact variance's error, and what 15 printed digits round away."""
     return f"{float(exact.error_bound) + 1e-15 * abs(float(exact.value)):.2g}"
-
-
-def _spread(raw: Moments) -> Interval:
-    """Variance of the raw estimator about its own mean."""
-    centred = Moments(raw.count, 0.0, raw.m2, raw.m3, raw.m4)
-    return variance_interval(centred, _REPORTED)
-
-
-def _bias(raw: Moments) -> Interval:
-    """Bias of the raw estimator, ±1.96 standard errors."""
-    half = 1.959963984540054 * raw.bias_error
-    return Interval(raw.bias, raw.bias - half, raw.bias + half)
 
 
 def _claim(judgement: Judgement) -> Document:

@@ -196,7 +196,7 @@ def _bias_level(state: State) -> float:
 
 
 def _replay(state: State, steps: Mapping[int, Sequence[int]]) -> None:
-    """What was measured, then what failed: a fault must find all the rest in place."""
+    """Execute a plan's steps: what was measured, then what failed, so that a fault comes last."""
     for stage in (0, 1):
         for m in state.measurements:
             if m.n not in steps:

@@ -5,7 +5,7 @@ depend on the count. Blocks from several processes merge into what one pass give
 Errors are taken about the known integral I, so that their second moment is the mean squared error.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, log, sqrt
 from typing import Any, NamedTuple
 
@@ -170,6 +170,17 @@ def variance_interval(moments: Moments, level: float) -> Interval:
     lower = float(special.gammaincinv(half, level / 2))
     upper = float(special.gammainccinv(half, level / 2))
     return Interval(q, q * half / upper, q * half / lower if lower > 0 else inf)
+
+
+def spread_interval(moments: Moments, level: float) -> Interval:
+    """As `variance_interval`, for the variance about the estimates' own mean."""
+    return variance_interval(replace(moments, mean=0.0), level)
+
+
+def bias_interval(moments: Moments) -> Interval:
+    """The bias of the estimates, ±1.96 standard errors (95 %)."""
+    half = 1.959963984540054 * moments.bias_error
+    return Interval(moments.bias, moments.bias - half, moments.bias + half)
 
 
 def relative_error(moments: Moments, level: float) -> float:

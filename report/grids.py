@@ -37,6 +37,11 @@ def markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([line(head), "|" + " --- |" * len(head), *map(line, rows)])
 
 
+def csv_cell(value: object) -> str:
+    """A value of a document as a CSV cell: true, false and nothing as in JSON."""
+    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+
+
 def comma_separated(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """CSV with a head."""
     out = io.StringIO()

@@ -17,7 +17,16 @@ from ..theory.spelling import (
     order_text,
 )
 from ..theory.tables import Row, Table, document, parse_dim, table
-from .grids import PREAMBLE, aligned, booktabs, comma_separated, escaped, markdown, without_repeats
+from .grids import (
+    PREAMBLE,
+    aligned,
+    booktabs,
+    comma_separated,
+    csv_cell,
+    escaped,
+    markdown,
+    without_repeats,
+)
 
 Document = dict[str, Any]
 
@@ -76,12 +85,7 @@ def _check_parameters(integrands: Sequence[str], dims: Sequence[str]) -> None:
 def _csv(found: Table) -> str:
     whole: Any = document(found)["rows"]
     rows: list[Document] = whole
-    return comma_separated(list(rows[0]), [[_plain(v) for v in r.values()] for r in rows])
-
-
-def _plain(value: object) -> str:
-    """A value of a document as a CSV cell: true, false and nothing as in JSON."""
-    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+    return comma_separated(list(rows[0]), [[csv_cell(v) for v in r.values()] for r in rows])
 
 
 def _crossovers(found: Table, integrands: Sequence[str]) -> list[Document]:

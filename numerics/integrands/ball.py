@@ -7,8 +7,8 @@ import numpy as np
 
 from ...theory.errors import InputError
 from .box import interval
-from .literals import literal, to_mpf
-from .protocol import Factor, Floats, Ints, Mpf, mp
+from .literals import literal
+from .protocol import Factor, Floats, Ints, Mpf, mp, to_mpf
 
 
 @dataclass(frozen=True)

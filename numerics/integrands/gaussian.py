@@ -19,7 +19,7 @@ from math import ceil, floor
 import numpy as np
 
 from ...theory.errors import InputError
-from .literals import exact, literal, to_mpf
+from .literals import exact, literal
 from .protocol import (
     Count,
     Factor,
@@ -30,6 +30,7 @@ from .protocol import (
     product_mean,
     product_power,
     product_total,
+    to_mpf,
 )
 
 _NARROW = Fraction(1, 20)  # at or below: translates; neither side needs more than about 25 terms

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from ...theory.errors import InputError
-from .protocol import Count, Mpf, mp
+from .protocol import Count, mp
 
 Value: TypeAlias = Fraction | tuple[Fraction, ...]
 
@@ -72,10 +72,3 @@ def exact(count: Count) -> Fraction:
     if value <= 0:
         raise InputError(f"a number of strata must satisfy 0 < n < oo: got {count}")
     return value
-
-
-def to_mpf(value: Fraction) -> Mpf:
-    """The rational, rounded to the working precision."""
-    with mp.extraprec(10):
-        result = mp.mpf(value.numerator) / value.denominator
-    return +result

@@ -8,6 +8,7 @@ of the five numbers that a `Factor` gives.
 """
 
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import reduce
 from operator import mul
 from typing import Any, Protocol, TypeAlias
@@ -118,3 +119,10 @@ def product_total(factors: Sequence[Factor], digits: int) -> Mpf:
             s, square = factor.total(), factor.mean() ** 2
             total, mean2 = total * (square + s) + mean2 * s, mean2 * square
         return total
+
+
+def to_mpf(value: Fraction) -> Mpf:
+    """The rational, rounded to the working precision."""
+    with mp.extraprec(10):
+        result = mp.mpf(value.numerator) / value.denominator
+    return +result

@@ -18,8 +18,8 @@ from math import comb, factorial, lcm
 
 import numpy as np
 
-from .literals import exact, to_mpf
-from .protocol import Count, Floats, Ints, Mpf
+from .literals import exact
+from .protocol import Count, Floats, Ints, Mpf, to_mpf
 
 _INT64_SAFE = 2**31  # numerators and denominators below this multiply within int64
 

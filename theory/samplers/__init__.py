@@ -1,13 +1,10 @@
 """The sampler catalogue: an explicit list of families, and the grammar of their names."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 from ..errors import InputError
 from ..signs import Assumptions, at_least
 from ..symbolic import Expr, Integer
 from .correlated_multi_jitter import correlated_multi_jitter
-from .definition import Sampler
+from .definition import Family, Sampler
 from .isotropic import isotropic
 from .jitter import jitter
 from .latin_hypercube import latin_hypercube
@@ -17,17 +14,6 @@ from .regular import regular
 from .uncorrelated_jitter import uncorrelated_jitter
 
 __all__ = ["FAMILIES", "Family", "Sampler", "parse_sampler"]
-
-
-@dataclass(frozen=True)
-class Family:
-    """A family of samplers: its name, how it is built, and an example of its parameter."""
-
-    name: str
-    build: Callable[[str, Expr, Assumptions], Sampler]
-    example: str = ""
-    smallest_dim: int = 1
-    aliases: tuple[str, ...] = ()
 
 
 FAMILIES = (

@@ -1,4 +1,4 @@
-"""What the catalogue knows of a sampler: its layout, its exact spectrum, its admissible N."""
+"""What the catalogue knows of a sampler and its family: layout, exact spectrum, admissible N."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from ..kernels import Kernel
 from ..layouts import Layout
 from ..profiles import SaturatingMonomial
+from ..signs import Assumptions
 from ..symbolic import Expr
 
 
@@ -44,3 +45,14 @@ class Sampler:
     def dim(self) -> Expr:
         """The dimension d."""
         return self.layout.dim
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of samplers: its name, how it is built, and an example of its parameter."""
+
+    name: str
+    build: Callable[[str, Expr, Assumptions], Sampler]
+    example: str = ""
+    smallest_dim: int = 1
+    aliases: tuple[str, ...] = ()
