@@ -22,7 +22,8 @@ import numpy as np
 
 from ..theory.errors import InputError
 from .integrands.protocol import Floats
-from .slopes import Exponent, Ladder, RatePoint, checked_level, ladder_of, special
+from .moments import special
+from .slopes import Exponent, Ladder, RatePoint, checked_level, ladder_of
 
 Verdict: TypeAlias = Literal["contradicted", "consistent", "inconclusive"]
 

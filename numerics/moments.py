@@ -165,10 +165,9 @@ def variance_interval(moments: Moments, level: float) -> Interval:
     q = moments.mse
     if q == 0:
         return Interval(0.0, 0.0, 0.0)
-    special: Any = _special()
-    half = _freedom(moments, float(-special.ndtri(level / 2))) / 2
-    lower = float(special.gammaincinv(half, level / 2))
-    upper = float(special.gammainccinv(half, level / 2))
+    half = _freedom(moments, float(-special().ndtri(level / 2))) / 2
+    lower = float(special().gammaincinv(half, level / 2))
+    upper = float(special().gammainccinv(half, level / 2))
     return Interval(q, q * half / upper, q * half / lower if lower > 0 else inf)
 
 
@@ -203,7 +202,7 @@ def log_error(interval: Interval, level: float) -> float:
     if interval.low <= 0:
         raise InputError(f"a relative error needs 0 < variance: got {interval.low}")
     widest = max(log(interval.high / interval.estimate), log(interval.estimate / interval.low))
-    return max(widest / -float(_special().ndtri(level / 2)), 1e-9)
+    return max(widest / -float(special().ndtri(level / 2)), 1e-9)
 
 
 def _freedom(moments: Moments, z: float) -> float:
@@ -215,7 +214,8 @@ def _freedom(moments: Moments, z: float) -> float:
     return nu / (1 + z / 2 * sqrt(2 / f))
 
 
-def _special() -> Any:
-    from scipy import special  # pyright: ignore[reportMissingTypeStubs]
+def special() -> Any:
+    """The special functions of scipy, imported where they are used."""
+    from scipy import special as functions  # pyright: ignore[reportMissingTypeStubs]
 
-    return special
+    return functions

@@ -205,18 +205,19 @@ def solve(problem: RadialProblem, digits: int = 15, route: str = "closed") -> Ra
 
 
 def _count(problem: RadialProblem) -> Ball:
+    return _log_count(problem).exp() if problem.count is None else exact_ball(problem.count)
+
+
+def _log_count(problem: RadialProblem) -> Ball:
     if problem.count is not None:
-        return exact_ball(problem.count)
+        return exact_ball(problem.count).log()
     assert problem.log10_n is not None
-    return (exact_ball(problem.log10_n) * flint.arb(10).log()).exp()
+    return exact_ball(problem.log10_n) * flint.arb(10).log()
 
 
 def _log_nu(problem: RadialProblem) -> Ball:
     """log ν = log α + e log N, without forming N where its logarithm is given."""
-    if problem.log10_n is not None:
-        log_n = exact_ball(problem.log10_n) * flint.arb(10).log()
-    else:
-        log_n = exact_ball(problem.count).log()  # type: ignore[arg-type]
+    log_n = _log_count(problem)
     return exact_ball(problem.alpha).log() + exact_ball(problem.effective) * log_n
 
 
@@ -279,18 +280,20 @@ def _pieces(problem: RadialProblem) -> list[_Piece]:
     """The integrand ρ^s P_S P_f of d(log ρ) between the breaks −∞, log ρ0, log ν, ∞."""
     log_nu, log_rho0 = _log_nu(problem), exact_ball(problem.rho0).log()
     b, s = exact_ball(problem.degree), exact_ball(problem.dimension)
-    breaks = [log_rho0, log_nu] if is_crossed(problem) else [log_nu, log_rho0]
+    crossed = is_crossed(problem)
+    breaks = [log_rho0, log_nu] if crossed else [log_nu, log_rho0]
     found: list[_Piece] = []
     for index, (low, high) in enumerate(zip([None, *breaks], [*breaks, None], strict=True)):
-        rising = high is log_nu or (index == 0 and is_crossed(problem))
-        falling = low is log_rho0 or (index == 2 and is_crossed(problem))
+        rising = high is log_nu or (index == 0 and crossed)
+        falling = low is log_rho0 or (index == 2 and crossed)
         if falling and problem.decay is None:
             continue
         log_amplitude, power = flint.arb(0), s
         if rising:
             log_amplitude, power = log_amplitude - b * log_nu, power + b
         if falling:
-            p = exact_ball(problem.decay)  # type: ignore[arg-type]
+            assert problem.decay is not None
+            p = exact_ball(problem.decay)
             power = power - p
             log_amplitude = log_amplitude + (p * log_rho0 if problem.continuous else 0)
         found.append((log_amplitude, power, low, high))

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, sqrt
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from ..theory.errors import InputError
 from .integrands.protocol import Floats
-from .moments import Interval
+from .moments import Interval, special
 
 Exponent: TypeAlias = float | Fraction
 
@@ -120,10 +120,3 @@ def checked_level(level: float) -> float:
 
 def _interval(estimate: float, half: float) -> Interval:
     return Interval(estimate, estimate - half, estimate + half)
-
-
-def special() -> Any:
-    """The special functions of scipy, imported where they are used."""
-    from scipy import special  # pyright: ignore[reportMissingTypeStubs]
-
-    return special

@@ -94,7 +94,8 @@ def _sum_and_size(sampler: Sampler, counts: Counts, m: Sequence[int]) -> tuple[M
     layout = sampler.layout
     support = [i + 1 for i, k in enumerate(m) if k]
     total = size = mp.mpf(0)
-    for term in sampler.kernel.restrict(support_counts(layout, support)):  # type: ignore[union-attr]
+    assert sampler.kernel is not None
+    for term in sampler.kernel.restrict(support_counts(layout, support)):
         value = element_value(term.coefficient, counts)
         absolute = abs(value)
         for group, factor in term.factors:
@@ -156,7 +157,8 @@ def _on_support(
 ) -> NDArray[np.float64]:
     layout = sampler.layout
     total = np.zeros(len(m))
-    for term in sampler.kernel.restrict(support_counts(layout, support.tolist())):  # type: ignore[union-attr]
+    assert sampler.kernel is not None
+    for term in sampler.kernel.restrict(support_counts(layout, support.tolist())):
         value = np.full(len(m), float(element_value(term.coefficient, counts)))
         for group, factor in term.factors:
             first = int(layout.groups[group].first)

@@ -72,6 +72,7 @@ def exact_variance(
 def _product_variance(
     sampler: Sampler, counts: Mapping[str, int], factors: tuple[Factor, ...], digits: int
 ) -> ExactVariance:
+    assert sampler.kernel is not None
     spare = int(4 * log10(max(counts.values()))) + 20  # the mean cancels, then low frequencies
     with mp.workdps(digits + spare):
         groups = sampler.layout.groups
@@ -80,9 +81,9 @@ def _product_variance(
             [factors[i - 1] for i in range(int(g.first), int(g.first) + int(g.size))]
             for g in groups
         ]
-        value, held = _tree_value(sampler.kernel, sums, members)  # type: ignore[arg-type]
+        value, held = _tree_value(sampler.kernel, sums, members)
         value *= sums.padding(set(range(len(groups))) - held, members)
-        at_zero = element_value(sampler.kernel.at_zero(), counts)  # type: ignore[union-attr]
+        at_zero = element_value(sampler.kernel.at_zero(), counts)
         for f in factors:
             at_zero *= f.mean() ** 2
         variance = (value - at_zero) / counts["N"]

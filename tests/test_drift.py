@@ -5,23 +5,12 @@ from time import perf_counter
 
 import numpy as np
 import pytest
+from ladders import SIZES, multi_jitter_disk, points
 from scipy import special
 from specrate.numerics.drift import DELTAS, _largest_rise, _least_chi2, drift_test
 from specrate.numerics.slopes import RatePoint, ladder_of
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
-
-SIZES = np.array([16.0, 64, 256, 1024, 4096])
-MULTI_JITTER_DISK = (-1.443, -1.454, -1.469, -1.480)  # exact local slopes; the limit is -3/2
-
-
-def points(variances, error, sizes=SIZES):
-    return [RatePoint(n, v, error) for n, v in zip(sizes, variances, strict=True)]
-
-
-def multi_jitter_disk():
-    steps = np.array(MULTI_JITTER_DISK) * np.log(4)
-    return np.exp(np.concatenate([[0.0], np.cumsum(steps)]))
 
 
 @pytest.mark.parametrize("error", [0.05, 0.01, 1e-3, 1e-5])

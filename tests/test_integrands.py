@@ -319,11 +319,12 @@ def test_counts_must_be_positive(n):
             parse_integrand(text, 1).factors[0].sinc2_sum(n)
 
 
-@pytest.mark.parametrize(("text", "dim"), [(e.name, d) for e in CATALOGUE for d in (1, 2, 3)])
+SUITED = [(e.name, d) for e in CATALOGUE for d in (1, 2, 3) if e.name != "disk" or d == 2]
+
+
+@pytest.mark.parametrize(("text", "dim"), SUITED)
 def test_mean_and_total_against_midpoints(text, dim):
     """A shifted grid of 60^d points integrates f and f^2 up to the boundary cells, c d/60."""
-    if text == "disk" and dim != 2:
-        pytest.skip("the disk has two dimensions")
     f = parse_integrand(text, dim)
     axis = (np.arange(60) + 0.37) / 60
     values = f(np.stack(np.meshgrid(*[axis] * dim, indexing="ij"), axis=-1))
