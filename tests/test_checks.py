@@ -4,7 +4,6 @@ A correct design is contradicted or called faulty with a probability of at most 
 wrong ones are off by factors that 128 realisations tell apart with a probability above 1 - 1e-6.
 """
 
-import time
 from pathlib import Path
 
 import numpy as np
@@ -240,9 +239,9 @@ def test_integrands_are_measured_besides_the_probes():
 
 
 def test_a_slow_sampler_ends_with_the_budget():
-    began = time.perf_counter()
     found = check(own("slow"), 2, ["random"], budget=1)
-    assert time.perf_counter() - began < 2
+    drawn = sum(max(step["replicates"], step["attempted"]) for step in found["plan"]["ladder"])
+    assert 1 <= drawn <= 21  # of 50 ms each, the last one begun within the second
     assert found["verdict"] == "inconclusive"
     assert found["budget_needed_seconds"] > 1
 
