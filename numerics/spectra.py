@@ -2,22 +2,28 @@
 
 ``scaled_power`` gives N·P_S(m) at one frequency to the working precision of mpmath, with counts
 that may be real numbers, so that growth laws can be followed to any N. ``power_array`` gives
-P_S on arrays of frequencies in double precision.
+P_S on arrays of frequencies in double precision, by forms that do not cancel.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..theory.errors import InputError
 from ..theory.kernels import Factor
 from ..theory.layouts import Layout
 from ..theory.samplers import Sampler
 from ..theory.symbolic import FracElement, sympy
-from .integrands.protocol import Mpf, mp
+from .integrands.protocol import Ints, Mpf, mp
+from .spectrum_arrays import scaled_power_array
 
 Counts = Mapping[str, int | Mpf]
 """Numbers for the counts of a kernel, as ``sampler.counts_at(N)`` gives them."""
+
+_LARGEST_FREQUENCY = 1 << 62
+_LARGEST_N = 10**307  # 1/N is a normal double
 
 
 def counts_by_growth(layout: Layout, n: Mpf) -> dict[str, Mpf]:
@@ -127,57 +133,62 @@ def power_array(
 
     Parameters
     ----------
+    sampler : Sampler
+        With a kernel.
+    counts : mapping of str to int
+        Every count of the kernel; N up to 10^307.
     m : array of shape (..., d)
-        m = 0 gives 1.
+        |m_i| up to 2^62; m = 0 gives 1.
 
     Returns
     -------
     array of shape (...)
-        With an absolute error of N·P_S of about 1e-15 times the largest coefficient (the plain
-        sum: low frequencies lose relative digits, at n strata about 1e-16 n²).
+        For the samplers of the catalogue with a relative error below 1e-13 (an estimate, from
+        comparison with ball arithmetic) where P_S is a normal double, else with an absolute
+        one below 1e-307; exactly zero where the spectrum is.
+
+    Raises
+    ------
+    InputError
+        If a frequency or N is too large.
     """
+    if m.size and not -_LARGEST_FREQUENCY <= m.min() <= m.max() <= _LARGEST_FREQUENCY:
+        raise InputError(
+            f"frequencies must be at most 2^62 in size: got {max(-int(m.min()), int(m.max()))}"
+        )
+    if counts["N"] > _LARGEST_N:
+        raise InputError(f"N must be at most 10^307: got {counts['N']}")
+    assert sampler.kernel is not None
     flat = m.reshape(-1, m.shape[-1])
     result = np.ones(len(flat))
-    packed = np.packbits(flat != 0, axis=1)  # rows of bytes are sorted much faster than of bools
-    if packed.shape[1] == 1:
-        masks, inverse = np.unique(packed[:, 0], return_inverse=True)
-        masks = masks[:, None]
-    else:
-        masks, inverse = np.unique(packed, axis=0, return_inverse=True)
-    masks = np.unpackbits(masks, axis=1, count=flat.shape[1]).astype(bool)
-    for index, mask in enumerate(masks):
-        rows = np.flatnonzero(inverse.reshape(-1) == index)
-        if mask.any():
-            result[rows] = _on_support(sampler, counts, flat[rows], np.flatnonzero(mask) + 1)
+    for support, rows in _by_support(flat):
+        taken = support_counts(sampler.layout, [i + 1 for i in support])
+        columns = [flat[rows, i] for i in support]
+        result[rows] = scaled_power_array(sampler.kernel, taken, counts, columns) / counts["N"]
     return result.reshape(m.shape[:-1])
 
 
-def _on_support(
-    sampler: Sampler, counts: Mapping[str, int], m: NDArray[np.int64], support: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    layout = sampler.layout
-    total = np.zeros(len(m))
-    assert sampler.kernel is not None
-    for term in sampler.kernel.restrict(support_counts(layout, support.tolist())):
-        value = np.full(len(m), float(element_value(term.coefficient, counts)))
-        for group, factor in term.factors:
-            first = int(layout.groups[group].first)
-            for i in support:
-                if first <= i < first + int(layout.groups[group].size):
-                    value *= _factor_array(factor, counts, m[:, i - 1])
-        total += value
-    return total / counts["N"]
+def _by_support(m: Ints) -> Iterator[tuple[list[int], NDArray[np.intp]]]:
+    """Each nonempty support, as 0-based coordinates, and the rows that have it."""
+    if len(m) == 0:
+        return
+    codes = _support_codes(m)
+    order = np.argsort(codes, kind="stable")
+    ends = np.flatnonzero(np.diff(codes[order])) + 1
+    for rows in np.split(order, ends):
+        support = np.flatnonzero(m[rows[0]])
+        if support.size:
+            yield support.tolist(), rows
 
 
-def _factor_array(
-    factor: Factor, counts: Mapping[str, int], m: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    total = np.zeros(len(m))
-    for coefficient, atom in factor.terms:
-        value = np.full(len(m), float(element_value(coefficient, counts)))
-        for comb in atom.combs:
-            value *= m % int(element_value(comb, counts)) == 0
-        for count in atom.sincs:
-            value *= np.sinc(m / int(element_value(count, counts))) ** 2
-        total += value
-    return total
+def _support_codes(m: Ints) -> NDArray[np.integer[Any]]:
+    """The same number for rows of the same support."""
+    d = m.shape[1]
+    if d > 64:
+        packed = np.packbits(m != 0, axis=1)
+        return np.unique(packed, axis=0, return_inverse=True)[1].reshape(-1)
+    kind = next(k for k in (np.uint8, np.uint16, np.uint32, np.uint64) if d <= 8 * k().itemsize)
+    codes = np.zeros(len(m), kind)
+    for i in range(d):
+        codes |= (m[:, i] != 0).astype(kind) << kind(i)  # few bits are sorted by counting
+    return codes
