@@ -16,6 +16,7 @@ from ..theory.spelling import (
     order_latex,
     order_text,
 )
+from ..theory.symbolic import Expr
 from ..theory.tables import Row, Table, document, parse_dim, table
 from .grids import (
     PREAMBLE,
@@ -33,6 +34,7 @@ Document = dict[str, Any]
 _HEAD = ("sampler", "d", "integrand", "region", "variance", "decides")
 _LATEX_HEAD = ("Variance", "Overall")
 _NAMES_IN_A_ROW = 6  # supports that are listed; of more the first and the last
+_DIGITS = 15  # of constants
 _LINE = 50  # letters, roughly, of a sum in a LaTeX table
 
 
@@ -48,7 +50,7 @@ def render(
     _check_parameters(integrands, dims)
     meetings = _crossovers(found, integrands) if primitive == "point" else []
     if form == "json":
-        whole = document(found)
+        whole = _document(found)
         whole["crossovers"] = meetings
         return json.dumps(whole, indent=1)
     if form == "csv":
@@ -82,9 +84,26 @@ def _check_parameters(integrands: Sequence[str], dims: Sequence[str]) -> None:
             parse_integrand(text, int(dim) if dim.strip().isdigit() else 2)
 
 
+def _document(found: Table) -> Document:
+    """The table's document with the constants that hold no symbol also as decimals."""
+    whole: Any = document(found)
+    for row, entry in zip(found.rows, whole["rows"], strict=True):
+        entry["constant_value"] = _decimal(row.constant)
+    return whole
+
+
+def _decimal(constant: Expr | None) -> str | None:
+    """15 certified digits; numbers are loaded only where there is a constant."""
+    if constant is None or constant.free_symbols:
+        return None
+    from ..numerics.balls import certified, spelled
+    from ..numerics.constant_balls import constant_ball
+
+    return spelled(certified(lambda: constant_ball(constant), _DIGITS), _DIGITS).value
+
+
 def _csv(found: Table) -> str:
-    whole: Any = document(found)["rows"]
-    rows: list[Document] = whole
+    rows: list[Document] = _document(found)["rows"]
     return comma_separated(list(rows[0]), [[csv_cell(v) for v in r.values()] for r in rows])
 
 

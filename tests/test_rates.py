@@ -17,12 +17,9 @@ from specrate.theory.rates import (
     crossover,
     is_no_harder,
     leading_constant,
-    low_frequency_constant,
     overall,
-    profile_of,
     region_rates,
 )
-from specrate.theory.regions import region_of_support
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.signs import symbol
 from specrate.theory.symbolic import Integer, Rational, sympy
@@ -34,16 +31,19 @@ CLASSES = ("worst", "best", "ball", "product:k=2", "additive", "half-space", "p=
 
 @given(samplers().filter(lambda s: len(s.layout.groups) <= 6), st.sampled_from(CLASSES))
 def test_rate_of_a_region_is_the_minimum_over_its_monomials(sampler, name):
-    for rate in region_rates(sampler, parse_decay(name)):
+    """Teeth against a product's power count by ∏ |m_i| >= N^spread, all else by |m| >= N^e."""
+    decay = parse_decay(name)
+
+    def fall(m, q):
+        if m.degree is sympy.oo and decay.is_product:
+            return q * m.spread
+        return m.effective * sympy.Min(m.degree, q) if m.effective else 0
+
+    for rate in region_rates(sampler, decay):
         if rate.order is None:
             assert rate.q is None
             continue
-        expected = min(
-            1
-            - m.plateau_exponent
-            + (m.effective * sympy.Min(m.degree, rate.q) if m.effective else 0)
-            for m in rate.profile
-        )
+        expected = min(1 - m.plateau_exponent + fall(m, rate.q) for m in rate.profile)
         assert rate.order.exponent == expected
         tie = any(
             m.degree == rate.q is not sympy.oo
@@ -156,29 +156,6 @@ def test_crossover_is_where_two_terms_are_equal():
 )
 def test_no_crossover_beside_logarithms_or_equal_powers(fast, slow):
     assert crossover(("a", Integer(1), fast), ("b", Integer(1), slow)) is None
-
-
-def test_low_frequency_constant_of_jitter_is_the_gradient():
-    """(π²/3) Σ|m|² P_f / N^(1+2/d), that is |∇f|²/(12 N n²)."""
-    sampler = parse_sampler("jitter", 2)
-    profile = profile_of(sampler, region_of_support(sampler.layout, (1, 2)))
-    moments = {((1,),): Integer(5)}
-    assert low_frequency_constant(profile, moments) == (
-        5 * sympy.pi**2 / 3,
-        Order(Integer(2)),
-    )
-
-
-def test_low_frequency_constant_of_correlated_multi_jitter_has_two_forms():
-    """Both monomials give N^-3: (π²/3) Σ|m|² P_f + (π⁴/9) Σ m_1² m_2² P_f."""
-    sampler = parse_sampler("correlated-multi-jitter", 2)
-    profile = profile_of(sampler, region_of_support(sampler.layout, (1, 2)))
-    m1, m2, mixed = sympy.symbols("m1 m2 mixed")
-    moments = {((1,), ()): m1, ((), (1,)): m2, ((1,), (1,)): mixed}
-    constant, order = low_frequency_constant(profile, moments)
-    expected = sympy.pi**2 * (m1 + m2) / 3 + sympy.pi**4 * mixed / 9
-    assert sympy.expand(constant - expected) == 0
-    assert order == Order(Integer(3))
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from .symbolic import Expr, Integer, sympy
 
 _RULE = (
     "an integrand class is worst, best, p=NUMBER, ball, disk, box, gaussian, anisotropic-gaussian, "
-    "product:k=K, bernoulli:k=K, half-space or additive"
+    "product:k=K, bernoulli:k=K, half-space, additive, polylog:p=P, ridge:k=(1,1) or chord"
 )
 _SMOOTH = ("best", "gaussian", "anisotropic-gaussian")
 _JUMPS = ("worst", "box")
@@ -36,9 +36,10 @@ class Decay:
     family : str
         The name without parameters.
     number : sympy.Expr or None
-        p of ``p=...``, k of the Bernoulli integrands.
+        p of ``p=...`` and ``polylog``, the degree of the Bernoulli polynomials.
     axes : tuple of int
-        The one support that carries the power of ``bernoulli`` and ``half-space``.
+        The one support that carries the power of ``bernoulli``, ``half-space``, ``polylog`` and
+        ``ridge``.
     powers : tuple of (str, sympy.Expr)
         For ``per_region``: regions with their p.
     """
@@ -91,27 +92,54 @@ def parse_decay(text: str) -> Decay:
         if not (decay.is_Rational and decay > 1) and decay is not sympy.oo:
             raise InputError(f"the decay in p=NUMBER must exceed 1: got {text!r}")
         return Decay("best", "best") if decay is sympy.oo else Decay(name, "p", decay)
-    if head in ("product", "bernoulli"):
+    if head in ("product", "bernoulli") or (head == "additive" and parameters):
         axes = _axes_of(parameters, text) if head == "bernoulli" else ()
         return Decay(name, head, Integer(_order_of(parameters, text)), axes)
+    if head == "polylog":
+        return Decay(name, head, _power_of(parameters, text), (1,))
+    if head == "ridge":
+        return Decay(
+            name, head, Integer(_order_of(parameters, text, "b")), _ridge_of(parameters, text)
+        )
     if head == "half-space":
         return Decay(name, head, axes=(1,))
-    if head not in (*_SMOOTH, *_JUMPS, "ball", "disk", "additive"):
+    if head not in (*_SMOOTH, *_JUMPS, "ball", "disk", "chord", "additive"):
         raise InputError(f"{_RULE}: got {text!r}")
-    if parameters and head in ("worst", "best", "additive"):
+    if parameters and head in ("worst", "best"):
         raise InputError(f"{head} takes no parameter: got {text!r}")
     return Decay(name, head)
 
 
-def _order_of(parameters: str, text: str) -> int:
-    """k of the Bernoulli polynomial B_k, 2 unless told."""
+def _order_of(parameters: str, text: str, name: str = "k") -> int:
+    """Degree of the Bernoulli polynomial, 2 unless told."""
     for part in parameters.split(","):
         key, _, value = part.partition("=")
-        if key.strip() == "k":
+        if key.strip() == name:
             if not is_whole(value.strip()) or int(value) < 1:
-                raise InputError(f"k must be a whole number of at least 1: got {text!r}")
+                raise InputError(f"{name} must be a whole number of at least 1: got {text!r}")
             return int(value)
     return 2
+
+
+def _power_of(parameters: str, text: str) -> Expr:
+    """p of a polylog, 5/2 unless told."""
+    key, _, value = parameters.partition("=")
+    power = parse_expression(value) if key.strip() == "p" else parse_expression("5/2")
+    if (parameters and key.strip() != "p") or not (power.is_Rational and power > 1):
+        raise InputError(f"a polylog is written polylog:p=5/2 with p > 1: got {text!r}")
+    return power
+
+
+def _ridge_of(parameters: str, text: str) -> tuple[int, ...]:
+    """The support of the direction k of a ridge, 1-based; all of (1,1) unless told."""
+    if "k=" not in parameters:
+        return (1, 2)
+    numbers = parameters.split("k=")[1].strip().removeprefix("(").split(")")[0].split(",")
+    entries = [n.strip().removeprefix("-") for n in numbers if n.strip()]
+    support = tuple(i + 1 for i, n in enumerate(entries) if is_whole(n) and int(n))
+    if not support or not all(is_whole(n) for n in entries):
+        raise InputError(f"a direction is written as k=(1,-2): got {text!r}")
+    return support
 
 
 def _axes_of(parameters: str, text: str) -> tuple[int, ...]:
@@ -145,8 +173,8 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
         return sympy.oo
     if decay.family in _JUMPS:
         return Integer(1)
-    if decay.family in ("ball", "disk"):
-        full = layout.dim + flat
+    if decay.family in ("ball", "disk", "chord"):
+        full = layout.dim + flat + (1 if decay.family == "chord" else 0)
         if decay.family == "disk" and full != 2:
             raise InputError(f"a disk needs --dim 2 (use ball): got {full}")
         return sympy.expand(full + 1 - s)
@@ -160,10 +188,10 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
     if decay.family == "product":
         return 2 * number - 1
     if decay.family == "additive":
-        return Integer(1) if s == 1 else None
+        return 2 * number - 1 if s == 1 else None
     if not _holds_support(layout, region, decay.axes):
         return None
-    return 2 * number - 1
+    return number - 1 if decay.family == "polylog" else 2 * number - 1
 
 
 def _named_power(decay: Decay, layout: Layout, region: Region) -> Expr | None:

@@ -194,29 +194,3 @@ def crossover(fast: tuple[str, Expr, Order], slow: tuple[str, Expr, Order]) -> C
     if gap == 0 or fast[2].log_power != 0 or slow[2].log_power != 0 or gap is sympy.oo:
         return None
     return Crossover(fast[0], slow[0], (fast[1] / slow[1]) ** (1 / gap))
-
-
-def low_frequency_constant(
-    profile: Profile, moment_of: "dict[tuple[tuple[int, ...], ...], Expr]"
-) -> tuple[Expr, Order] | None:
-    """Constant and order of a smooth integrand's variance on a region, from its moments.
-
-    Where all power lies far below α N_k, Var ~ Σ_j N^(−1−e_j b_j) Σ_m form_j(m) P_f(m); the
-    slowest monomial counts.
-
-    Parameters
-    ----------
-    moment_of : dict
-        For the partitions of every form of the profile, Σ_m M_λ(m²) P_f(m) on the region.
-    """
-    best: tuple[Expr, Order] | None = None
-    for monomial in profile:
-        if monomial.degree is sympy.oo:
-            continue
-        order = Order(1 + monomial.effective * monomial.degree)
-        constant = sum((c * moment_of[p.partitions] for p, c in monomial.form), Integer(0))
-        if best is None or (order.exponent - best[1].exponent).is_negative:
-            best = (constant, order)
-        elif order == best[1]:
-            best = (best[0] + constant, order)
-    return best

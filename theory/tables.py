@@ -7,13 +7,15 @@ where they differ each has its own row with its coordinates.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from .constants import MODELS, region_constant, summed_constant
 from .decays import Decay, parse_decay
 from .dominance import dominates
 from .errors import InputError
 from .expressions import is_whole, parse_size
 from .orders import Order
 from .primitives import Primitive, parse_primitive, sampled_dimension
-from .rates import RegionRate, is_no_harder, leading_constant, overall, region_rates
+from .radial import Leading
+from .rates import RegionRate, is_no_harder, overall, region_rates
 from .regions import touched
 from .samplers import FAMILIES, Sampler, parse_sampler
 from .signs import symbol
@@ -26,8 +28,10 @@ _LONGEST_DIM = 6
 class Row:
     """One row: variance ~ constant · N^-exponent (log N)^log_power on a region.
 
-    ``constant`` is that of the monomial model of Eq. 17 in c_f and ρ0, or None. ``dominated`` says
-    that the region falls faster than the whole. ``condition`` restricts the symbols (None: none).
+    ``constant`` is exact for a named integrand, all supports of the region together; for a class it
+    is that of the monomial model of Eq. 17 in c_f and ρ0; None where it is not known. ``dominated``
+    says that the region falls faster than the whole. ``condition`` restricts the symbols (None:
+    none).
     """
 
     sampler: str
@@ -140,24 +144,37 @@ def _rows(
     constants: bool,
 ) -> Iterator[Row]:
     cases = overall(rates, sampler.layout.assumptions)
+    terms = _terms(sampler, kind, decay, rates) if constants else {}
     head = (sampler.name, dim, kind.name, decay.name)
     top = cases[0].order
     for region, members in joined_regions(sampler, rates):
         order = members[0].order
         assert order is not None
         dominated = len(cases) == 1 and order != top and _is_dominated(members[0], top, rates)
-        constant = _common_constant(sampler, members, decay) if constants else None
+        constant = _joint_constant(decay, [terms.get(m.region.counts) for m in members], order)
         yield Row(*head, region, order, constant, False, dominated)
     for case in cases:
-        yield Row(*head, "overall", case.order, None, True, False, case.condition)
+        slowest = [terms.get(r.region.counts) for r in rates if r.order == case.order]
+        is_whole = decay.family not in MODELS and len(cases) == 1 and slowest
+        constant = summed_constant(slowest, case.order) if is_whole else None
+        yield Row(*head, "overall", case.order, constant, True, False, case.condition)
 
 
-def _common_constant(
-    sampler: Sampler, members: tuple[RegionRate, ...], decay: Decay
-) -> Expr | None:
-    """The leading constant that joined regions share; None where each has its own."""
-    found = [leading_constant(sampler, m, decay) for m in members]
-    constants = {None if f is None else f.constant for f in found}
+_Terms = dict[tuple[Expr, ...], Leading | None]
+
+
+def _terms(
+    sampler: Sampler, kind: Primitive, decay: Decay, rates: tuple[RegionRate, ...]
+) -> _Terms:
+    """The leading term of each region."""
+    return {r.region.counts: region_constant(sampler, r, decay, kind) for r in rates}
+
+
+def _joint_constant(decay: Decay, terms: list[Leading | None], order: Order) -> Expr | None:
+    """The sum of joined regions' constants; of a class, whose c_f is a region's own, the common."""
+    if decay.family not in MODELS:
+        return summed_constant(terms, order)
+    constants = {None if t is None else t.constant for t in terms}
     return constants.pop() if len(constants) == 1 else None
 
 
