@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .check_documents import check
     from .radial_integrals import radial
+    from .variances import variance
 
-__all__ = ["check", "radial"]
+__all__ = ["check", "radial", "variance"]
 
-_DOORS = {"check": ".check_documents", "radial": ".radial_integrals"}
+_DOORS = {"check": ".check_documents", "radial": ".radial_integrals", "variance": ".variances"}
 
 
 def __getattr__(name: str) -> Any:

@@ -19,7 +19,7 @@ flint: Any = _flint
 """The python-flint module, which carries no types."""
 
 Ball: TypeAlias = Any
-"""A real ball, ``flint.arb``."""
+"""A real ball, ``flint.arb``. The square of one that may hold 0 is x * x: x**2 gives nan."""
 
 _MOST_BITS = 1 << 20
 
@@ -40,10 +40,14 @@ class Certified:
     error_bound: str
 
 
+def rational(number: Fraction | int) -> Any:
+    """The number as ``flint.fmpq``, whose arithmetic is exact and fast."""
+    return flint.fmpq(number.numerator, number.denominator)
+
+
 def exact_ball(number: Fraction | int) -> Ball:
     """The ball around a rational, at the precision in force."""
-    fraction = Fraction(number)
-    return flint.arb(flint.fmpq(fraction.numerator, fraction.denominator))
+    return flint.arb(rational(number))
 
 
 def certified(evaluate: Callable[[], Ball], digits: int) -> Ball:

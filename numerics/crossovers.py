@@ -10,18 +10,19 @@ from dataclasses import dataclass
 from itertools import combinations
 from math import comb, prod
 
-from ..theory.expansions import FULL
+from ..theory.expansions import FULL, Partition
 from ..theory.layouts import Layout
 from ..theory.orders import Order
 from ..theory.rates import profile_of
 from ..theory.regions import Region, regions
 from ..theory.samplers import Sampler
 from ..theory.symbolic import sympy
-from .integrands.gaussian import Gaussian
-from .integrands.protocol import Factor, Integrand, Mpf, mp
+from .balls import Ball, certified, flint
+from .integrands.gaussian import GaussianFactor
+from .integrands.protocol import Factor, Integrand, Mpf, mp, to_mpf
 
 _DIGITS = 30
-_SCALE = 10**20  # Σ m² |f^|² from Σ |f^|² (1 − sinc²(m/n)), relative error O(n^-2)
+_SCALE = 10**60  # Σ m² |f^|² from Σ |f^|² (1 − sinc²(m/n)), relative error O((1 + 1/σ)²/n²)
 _MOST_SUPPORTS = 5000
 
 
@@ -48,9 +49,9 @@ def region_constants(sampler: Sampler, integrand: Integrand) -> tuple[RegionCons
 
     The Gaussian is the catalogue's one integrand that is smooth and a product.
     """
-    if not isinstance(integrand, Gaussian) or sampler.kernel is None:
+    factors, layout = _gaussians(integrand), sampler.layout
+    if not factors or sampler.kernel is None:
         return ()
-    factors, layout = integrand.factors, sampler.layout
     found: list[RegionConstant] = []
     for region in regions(layout):
         picks = zip(layout.groups, region.counts, strict=True)
@@ -59,24 +60,44 @@ def region_constants(sampler: Sampler, integrand: Integrand) -> tuple[RegionCons
         for monomial in profile_of(sampler, region):
             if monomial.degree is sympy.oo:
                 continue
-            with mp.workdps(3 * _DIGITS + 60):
+            if any(
+                p != FULL and set(p) - {1} for powers, _ in monomial.form for p in powers.partitions
+            ):
+                return ()  # moments of other orders than m_i² are not here
+            with mp.workdps(_DIGITS + 10):
                 value = mp.mpf(0)
                 for powers, constant in monomial.form:
                     weight = mp.mpmathify(sympy.N(constant, mp.dps))
-                    value += weight * _moment(layout, region, powers.partitions, factors)
+                    moment = _certified_moment(layout, region, powers.partitions, factors)
+                    value += weight * moment
             order = Order(1 + monomial.effective * monomial.degree)
             found.append(RegionConstant(region.label, +value, order))
     return tuple(found)
 
 
-def _moment(
+def _gaussians(integrand: Integrand) -> tuple[Factor, ...]:
+    """The factors of a Gaussian, one per coordinate; empty for other integrands."""
+    factors = tuple(factor for part in integrand.parts for _, factor in part)
+    return factors if all(isinstance(f, GaussianFactor) for f in factors) else ()
+
+
+def _certified_moment(
     layout: Layout,
     region: Region,
-    partitions: tuple[tuple[int, ...], ...],
+    partitions: tuple[Partition, ...],
     factors: tuple[Factor, ...],
 ) -> Mpf:
     """Σ over the region's supports of Σ_m M_λ(m²) ∏ |f^_i(m_i)|², the others at m = 0."""
-    total = mp.mpf(1)
+    return to_mpf(certified(lambda: _moment(layout, region, partitions, factors), _DIGITS + 10))
+
+
+def _moment(
+    layout: Layout,
+    region: Region,
+    partitions: tuple[Partition, ...],
+    factors: tuple[Factor, ...],
+) -> Ball:
+    total = flint.arb(1)
     for group, count, partition in zip(layout.groups, region.counts, partitions, strict=True):
         first = int(group.first) - 1
         members = factors[first : first + int(group.size)]
@@ -84,27 +105,26 @@ def _moment(
     return total
 
 
-def _group_moment(members: tuple[Factor, ...], count: int, partition: tuple[int, ...]) -> Mpf:
+def _group_moment(members: tuple[Factor, ...], count: int, partition: Partition) -> Ball:
     """One group's part: a choice of supports, and of the axes that carry the powers."""
     powers = (1,) * count if partition == FULL else partition
-    assert set(powers) <= {1}, "the vertices of a profile have m_i² at most"
-    total = mp.mpf(0)
+    total = flint.arb(0)
     for support in combinations(range(len(members)), count):
         for raised in combinations(support, len(powers)):
-            value = mp.mpf(1)
+            value = flint.arb(1)
             for i, f in enumerate(members):
                 if i in raised:
                     value *= _second_moment(f)
                 else:
-                    value *= f.total() if i in support else f.mean() ** 2
+                    value *= f.power_sum() if i in support else f.mean() ** 2
             total += value
     return total
 
 
-def _second_moment(factor: Factor) -> Mpf:
+def _second_moment(factor: Factor) -> Ball:
     """Σ_{m≠0} m² |f^(m)|², from the deficit of its sinc² sum, (π²/3) Σ m² |f^|² / n²."""
-    deficit = factor.total() - factor.sinc2_sum(_SCALE)
-    return deficit * 3 * mp.mpf(_SCALE) ** 2 / mp.pi**2
+    deficit = factor.power_sum() - factor.power_sum(count=_SCALE)
+    return deficit * 3 * flint.arb(_SCALE) ** 2 / flint.arb.pi() ** 2
 
 
 def crossovers(sampler: Sampler, integrand: Integrand) -> tuple[Crossover, ...]:

@@ -6,17 +6,16 @@ nothing: it is the variance of the rest (`is_seen`). And while N is small agains
 stratification looks like random sampling, whatever rate it reaches later (`is_resolved`).
 """
 
+from fractions import Fraction
 from functools import lru_cache
 from math import prod
 
 import numpy as np
 
 from .integrands.ball import Ball
-from .integrands.bernoulli import Bernoulli
-from .integrands.box import Box
-from .integrands.gaussian import Gaussian
-from .integrands.product import Product
-from .integrands.protocol import Floats, Integrand
+from .integrands.bernoulli import bernoulli_factor
+from .integrands.protocol import Factor, Floats, Integrand, Part
+from .integrands.ridge import Ridge
 from .streams import stream
 
 SEEN = 64
@@ -40,37 +39,53 @@ def is_resolved(integrand: Integrand, n: int) -> bool:
 
 def resolution(integrand: Integrand) -> float:
     """Least N whose N^(1/d) strata along each axis resolve the narrowest axis of the integrand."""
-    axes = _axes(integrand) or ()
-    return _RESOLVED * max(kurtosis(integrand), *(kurtosis(f) ** len(axes) for f in axes), 1.0)
+    axes = [
+        _spread((axis,))[1] ** len(part)
+        for part in integrand.parts
+        if len(part) > 1
+        for axis in part
+    ]
+    return _RESOLVED * max(kurtosis(integrand), *axes, 1.0)
 
 
 @lru_cache(maxsize=1024)
 def kurtosis(integrand: Integrand) -> float:
     """κ = E(f − I)⁴ / (E(f − I)²)² over the unit cube."""
-    if isinstance(integrand, Ball | Box):
-        v = float(integrand.mean(17))
-        return (1 - 3 * v * (1 - v)) / (v * (1 - v))
-    axes = _axes(integrand)
-    if axes is None:  # by draws, which may miss a very narrow bump
+    if isinstance(integrand, Ball):
+        return _of_volume(float(integrand.mean(17)))
+    if isinstance(integrand, Ridge):  # {k·x} is uniform
+        return _spread(((1, bernoulli_factor(Fraction(0), integrand.b, Fraction(1))),))[1]
+    if not integrand.parts:  # by draws, which may miss a very narrow bump
         return _central(_raw(integrand(stream(0).random((_DRAWS, integrand.dim)))))
-    nodes = (np.arange(_NODES)[:, None] + 0.5) / _NODES
-    moments = [_raw(f(nodes)) for f in axes]
-    return _central([prod(m[k] for m in moments) for k in range(4)])
+    spreads = [_spread(part) for part in integrand.parts]
+    if len(spreads) == 1:
+        return spreads[0][1]
+    # Parts of one coordinate each are independent: their fourth cumulants add.
+    total = sum(variance for variance, _ in spreads)
+    return 3 + sum((k - 3) * variance**2 for variance, k in spreads) / total**2
 
 
-def _axes(integrand: Integrand) -> tuple[Integrand, ...] | None:
-    """Functions of one coordinate whose product it is, constants left out; None if unknown."""
-    match integrand:
-        case Bernoulli():
-            return (Bernoulli(1, integrand.k, (1,)),) * len(integrand.axes)
-        case Gaussian():
-            return tuple(Gaussian((s,)) for s in integrand.sigmas)
-        case Product():
-            return (Product(1, integrand.k, integrand.c),) * integrand.dim
-        case Box():
-            return tuple(Box((side,)) for side in integrand.sides if side < 1)
-        case _:
-            return None
+def _of_volume(v: float) -> float:
+    """Of the indicator of a volume."""
+    return (1 - 3 * v * (1 - v)) / (v * (1 - v))
+
+
+def _spread(part: Part) -> tuple[float, float]:
+    """Variance and κ of a product, from the raw moments of its factors on an axis each."""
+    found = [_factor_moments(factor) for _, factor in part]
+    raw = [prod(m[k] for m in found) for k in range(4)]
+    if all(len(set(m)) == 1 for m in found):  # an indicator, f² = f
+        return raw[0] * (1 - raw[0]), _of_volume(raw[0])
+    return raw[1] - raw[0] ** 2, _central(raw)
+
+
+@lru_cache(maxsize=256)
+def _factor_moments(factor: Factor) -> tuple[float, ...]:
+    """Raw moments by the midpoint rule; an indicator's are its length, however narrow it is."""
+    values = factor.values((np.arange(_NODES) + 0.5) / _NODES)
+    if np.all((values == 0) | (values == 1)):
+        return (float(factor.mean()),) * 4
+    return tuple(_raw(values))
 
 
 def _raw(values: Floats) -> list[float]:

@@ -1,31 +1,36 @@
 """Exact variance of the randomly shifted estimator, Var = Σ_{m≠0} P_S(m) |f^(m)|².
 
-For a product integrand the sum over m factors like the kernel does: each one-dimensional factor
-of the kernel meets the coordinate's power sums, and the variance is a short sum of products,
-in closed form and at any N. For the ball it is summed over a box of frequencies; what lies outside
-is known in total from Parseval and bounded by sup N·P_S.
+Of several routes the first that applies is taken:
+
+- ``parseval``: independent points, Var = Σ_{m≠0} |f^(m)|² / N;
+- ``product``: sums of products of functions of one coordinate, in closed form;
+- ``ridge``: functions of k·x, summed over the multiples of k in closed form;
+- ``covariogram``: balls and their chords in real space, in up to three dimensions;
+- ``lattice``: any other integrand, summed over a box of frequencies, the rest bounded.
+
+All but the last give as many digits as asked for, at any N.
 """
 
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
-from math import log10
-
-import numpy as np
-from numpy.typing import NDArray
+from math import ceil, floor, log2, log10
 
 from ..theory.errors import InputError
-from ..theory.kernels import Factor as KernelFactor
-from ..theory.kernels import Kernel
-from ..theory.samplers import Sampler
-from ..theory.symbolic import FracElement
-from .integrands.protocol import Factor, Integrand, Mpf, mp
-from .spectra import element_value, power_array
+from ..theory.samplers import Sampler, parse_sampler
+from .balls import Ball, Certified, certified, flint, spelled
+from .covariogram_variances import OutOfReach, ball_variance
+from .integrands.ball import Ball as BallIntegrand
+from .integrands.chord import Chord
+from .integrands.grammar import parse_integrand
+from .integrands.protocol import Integrand, Mpf, to_mpf
+from .integrands.ridge import Ridge
+from .lattice_variances import BOX, LARGEST_DIM, lattice_variance
+from .product_variances import product_variance
+from .radial_integrals import exact_number
+from .ridge_variances import ridge_variance
 
-BOX = 2_000_000
-"""Frequencies in a lattice sum."""
-
-_SLAB = 1 << 18  # frequencies handled at once
+_LARGEST = 10**4000  # Python writes no integers of more than 4300 digits
 
 
 @dataclass(frozen=True)
@@ -36,10 +41,9 @@ class ExactVariance:
     ----------
     value : mpf
     error_bound : mpf
-        For product integrands the rounding of a sum carried out with spare digits; for lattice
-        sums the Parseval tail times sup |N·P_S − 1|, taken as at least 1.
+        The value's distance from the variance is at most this.
     method : str
-        ``product`` or ``lattice``.
+        The route taken.
     """
 
     value: Mpf
@@ -47,156 +51,224 @@ class ExactVariance:
     method: str
 
 
+@dataclass(frozen=True)
+class VarianceResult:
+    """An exact variance as asked for by names.
+
+    Parameters
+    ----------
+    sampler, integrand : str
+        Canonical names.
+    dim, n : int
+        n is the N of the value, the admissible one nearest to the N asked for.
+    n_asked : str
+    value : Certified
+        With the digits asked for, or as many as are certain.
+    method : str
+    seconds : float
+    left_out : tuple of (str, str)
+        What does not enter the value, and why.
+    """
+
+    sampler: str
+    integrand: str
+    dim: int
+    n: int
+    n_asked: str
+    value: Certified
+    method: str
+    seconds: float
+    left_out: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What a route is given: counts of the sampler's kernel, digits, frequencies of a lattice."""
+
+    sampler: Sampler
+    counts: Mapping[str, int]
+    integrand: Integrand
+    digits: int
+    box: int
+
+
+def variance(
+    sampler: str, integrand: str, dim: int, n: str, digits: int = 15, method: str | None = None
+) -> VarianceResult:
+    """Exact variance of a catalogue sampler on a catalogue integrand, certified.
+
+    Parameters
+    ----------
+    sampler, integrand : str
+        In their grammars: ``jitter``, ``disk:radius=0.3``.
+    dim : int
+        At least 1.
+    n : str
+        Number of points, ``1000000`` or ``1e30``.
+    digits : int
+        1 to 10 000.
+    method : str, optional
+        The route to take instead of the first that applies.
+
+    Raises
+    ------
+    InputError
+        If a name, a number or the method is unusable, or no route applies.
+    """
+    if not 1 <= digits <= 10_000:
+        raise InputError(f"--digits must be in 1..10000: got {digits}")
+    asked = _whole(n)
+    found, f = parse_sampler(sampler, dim), parse_integrand(integrand, dim)
+    if found.kernel is None or found.counts_at is None:
+        raise InputError(f"an exact variance needs a sampler with points: got {found.name}")
+    began = time.perf_counter()
+    counts = found.counts_at(asked)
+    ball, used = _certified_variance(_Asked(found, counts, f, digits, BOX), method)
+    seconds = time.perf_counter() - began
+    shown = min(digits, max(2, floor(ball.rel_accuracy_bits() * log10(2)) + 1))
+    value = spelled(ball, digits if ball.is_exact() else shown)
+    left = _left_out(found, f, asked, counts["N"])
+    return VarianceResult(found.name, f.name, dim, counts["N"], n, value, used, seconds, left)
+
+
+def _whole(n: str) -> int:
+    if n.strip().startswith("log:"):
+        raise InputError(f"n must be the number of points itself, such as 1e300: got {n!r}")
+    number = exact_number(n, "n")
+    if number.denominator != 1 or not 1 <= number <= _LARGEST:
+        raise InputError(f"n must be a whole number from 1 to 1e4000: got {n!r}")
+    return number.numerator
+
+
+def _left_out(
+    sampler: Sampler, integrand: Integrand, asked: int, used: int
+) -> tuple[tuple[str, str], ...]:
+    found: list[tuple[str, str]] = []
+    if used != asked:
+        found.append((f"N = {asked}", f"{sampler.name} has no such N: the nearest it has is taken"))
+    axes = {axis for part in integrand.parts for axis, _ in part} or {*(integrand.support or ())}
+    ignored = [i for i in range(1, integrand.dim + 1) if i not in axes] if axes else []
+    if ignored:
+        why = "the integrand does not depend on them: there every factor of the kernel is 1"
+        found.append((f"coordinates {_ranges(ignored)}", why))
+    return tuple(found)
+
+
+def _ranges(numbers: list[int]) -> str:
+    """Increasing numbers as text, ``1,4..9``."""
+    runs: list[list[int]] = []
+    for i in numbers:
+        if runs and runs[-1][1] == i - 1:
+            runs[-1][1] = i
+        else:
+            runs.append([i, i])
+    return ",".join(str(a) if a == b else f"{a}..{b}" for a, b in runs)
+
+
 def exact_variance(
     sampler: Sampler,
     counts: Mapping[str, int],
     integrand: Integrand,
     digits: int = 15,
+    method: str | None = None,
     box: int = BOX,
 ) -> ExactVariance:
     """Exact variance at the N of the given counts.
 
+    Parameters
+    ----------
+    sampler : Sampler
+    counts : mapping of str to int
+        Every count of the sampler's kernel, N among them.
+    integrand : Integrand
+    digits : int
+        Decimal digits; lattice sums give what they can.
+    method : str, optional
+        The route to take instead of the first that applies.
+    box : int
+        Frequencies in a lattice sum.
+
     Raises
     ------
     InputError
-        If the sampler has no kernel, or the integrand is no product and the kernel has combs or
-        more than three dimensions (their lattice sums have no useful bound here).
+        If the sampler has no kernel, there is no such method, or no route applies.
     """
-    if sampler.kernel is None:
-        raise InputError(f"an exact variance needs a sampler with a spectrum: got {sampler.name}")
-    if integrand.factors is not None:
-        return _product_variance(sampler, counts, integrand.factors, digits)
-    return _lattice_variance(sampler, counts, integrand, box)
+    ball, used = _certified_variance(_Asked(sampler, counts, integrand, digits, box), method)
+    before, flint.ctx.prec = flint.ctx.prec, ceil((digits + 3) * log2(10))
+    try:
+        rounded = +ball  # the rounding goes into the radius
+    finally:
+        flint.ctx.prec = before
+    return ExactVariance(to_mpf(rounded), to_mpf(rounded.rad()), used)
 
 
-def _product_variance(
-    sampler: Sampler, counts: Mapping[str, int], factors: tuple[Factor, ...], digits: int
-) -> ExactVariance:
-    assert sampler.kernel is not None
-    spare = int(4 * log10(max(counts.values()))) + 20  # the mean cancels, then low frequencies
-    with mp.workdps(digits + spare):
-        groups = sampler.layout.groups
-        sums = _PowerSums(counts, factors)
-        members = [
-            [factors[i - 1] for i in range(int(g.first), int(g.first) + int(g.size))]
-            for g in groups
-        ]
-        value, held = _tree_value(sampler.kernel, sums, members)
-        value *= sums.padding(set(range(len(groups))) - held, members)
-        at_zero = element_value(sampler.kernel.at_zero(), counts)
-        for f in factors:
-            at_zero *= f.mean() ** 2
-        variance = (value - at_zero) / counts["N"]
-        error = (abs(value) + abs(at_zero)) * mp.mpf(10) ** (-(digits + spare - 5)) / counts["N"]
-    return ExactVariance(variance, error, "product")
+def _certified_variance(asked: _Asked, method: str | None) -> tuple[Ball, str]:
+    """The variance as a ball, and the route taken."""
+    if asked.sampler.kernel is None:
+        rule = "an exact variance needs a sampler with a spectrum"
+        raise InputError(f"{rule}: got {asked.sampler.name}")
+    if asked.sampler.dim != asked.integrand.dim:
+        dims = f"{asked.sampler.dim} and {asked.integrand.dim}"
+        raise InputError(f"a sampler and its integrand must have one dimension: got {dims}")
+    if method is not None and method not in _ROUTES:
+        raise InputError(f"a method must be one of {', '.join(_ROUTES)}: got {method!r}")
+    for name, route in _ROUTES.items():
+        if method not in (None, name):
+            continue
+        try:
+            ball = route(asked)
+        except OutOfReach:
+            if method == name:
+                raise
+            continue
+        if ball is not None:
+            return ball, name
+    names = f"{asked.integrand.name} under {asked.sampler.name}"
+    raise InputError(f"the method {method} must apply to the integrand and sampler: got {names}")
 
 
-class _PowerSums:
-    """Power sums of the coordinates against kernel factors, each computed once."""
-
-    def __init__(self, counts: Mapping[str, int], factors: tuple[Factor, ...]) -> None:
-        self._counts = counts
-        self._known: dict[tuple[Factor, KernelFactor], Mpf] = {}
-
-    def of(self, coordinate: Factor, factor: KernelFactor) -> Mpf:
-        """φ(0) |f^(0)|² + Σ_{m≠0} φ(m) |f^(m)|²."""
-        key = (coordinate, factor)
-        if key not in self._known:
-            self._known[key] = self._summed(coordinate, factor)
-        return self._known[key]
-
-    def _summed(self, coordinate: Factor, factor: KernelFactor) -> Mpf:
-        total = mp.mpf(0)
-        for coefficient, atom in factor.terms:
-            total += element_value(coefficient, self._counts) * (
-                coordinate.mean() ** 2
-                + (0 if atom.zero else self._atom_sum(coordinate, atom.combs, atom.sincs))
-            )
-        return total
-
-    def _atom_sum(
-        self, coordinate: Factor, combs: tuple[FracElement, ...], sincs: tuple[FracElement, ...]
-    ) -> Mpf:
-        teeth = [int(element_value(c, self._counts)) for c in combs]
-        counts = [int(element_value(c, self._counts)) for c in sincs]
-        match teeth, counts:
-            case [], []:
-                return coordinate.total()
-            case [], [n]:
-                return coordinate.sinc2_sum(n)
-            case [n], []:
-                return coordinate.comb_sum(n)
-            case [n], [n2]:
-                return coordinate.comb_sinc2_sum(n, n2)
-            case _:
-                raise InputError(f"a factor must have at most one comb and one sinc²: got {combs}")
-
-    def padding(self, missing: set[int], members: list[list[Factor]]) -> Mpf:
-        """∏ Σ_m |f^(m)|² over the axes of the groups that a term does not mention."""
-        value = mp.mpf(1)
-        for group in missing:
-            for f in members[group]:
-                value *= f.mean() ** 2 + f.total()
-        return value
+def _parseval(asked: _Asked) -> Ball | None:
+    """Independent points: N·P_S = 1."""
+    if asked.sampler.family != "random":
+        return None
+    more = asked.digits + 2
+    return certified(lambda: asked.integrand.total(more) / asked.counts["N"], asked.digits)
 
 
-def _tree_value(
-    kernel: Kernel, sums: _PowerSums, members: list[list[Factor]]
-) -> tuple[Mpf, set[int]]:
-    """Value over the groups that the kernel mentions, and these groups."""
-    if kernel.term is not None:
-        value = element_value(kernel.term.coefficient, sums._counts)  # pyright: ignore[reportPrivateUsage]
-        for group, factor in kernel.term.factors:
-            for coordinate in members[group]:
-                value *= sums.of(coordinate, factor)
-        return value, {group for group, _ in kernel.term.factors}
-    parts = [_tree_value(p, sums, members) for p in kernel.parts]
-    held = {group for _, groups in parts for group in groups}
-    if kernel.kind == "product":
-        value = mp.mpf(1)
-        for part, _ in parts:
-            value *= part
-        if sum(len(groups) for _, groups in parts) != len(held):
-            raise InputError("factors of a kernel's product must stand on different axes")
-        return value, held
-    total = mp.mpf(0)
-    for part, groups in parts:
-        total += part * sums.padding(held - groups, members)
-    return total, held
+def _product(asked: _Asked) -> Ball | None:
+    parts = asked.integrand.parts
+    return product_variance(asked.sampler, asked.counts, parts, asked.digits) if parts else None
 
 
-@lru_cache(maxsize=2)
-def _lattice(
-    integrand: Integrand, dim: int, half: int
-) -> tuple[tuple[NDArray[np.int64], NDArray[np.float64]], ...]:
-    """Slabs of frequencies m ≠ 0, |m_i| <= half, one of each ±m where m_1 ≠ 0, and their energy."""
-    axis, slabs = np.arange(-half, half + 1), list[tuple[NDArray[np.int64], NDArray[np.float64]]]()
-    thick = max(1, _SLAB // len(axis) ** (dim - 1))
-    for start in range(0, half + 1, thick):
-        first = np.arange(start, min(start + thick, half + 1))
-        grid = np.meshgrid(first, *[axis] * (dim - 1), indexing="ij")
-        m = np.stack(grid, axis=-1).reshape(-1, dim)
-        # Of the plane m_1 = 0 both signs are there: they count once each, all others twice.
-        m = m[(m != 0).any(axis=1)]
-        weight = np.where(m[:, 0] == 0, 1.0, 2.0)
-        slabs.append((m, weight * integrand.coefficient_power(m)))
-    return tuple(slabs)
+def _ridge(asked: _Asked) -> Ball | None:
+    f = asked.integrand
+    if not isinstance(f, Ridge):
+        return None
+    return ridge_variance(asked.sampler, asked.counts, f, asked.digits)
 
 
-def _lattice_variance(
-    sampler: Sampler, counts: Mapping[str, int], integrand: Integrand, box: int
-) -> ExactVariance:
-    d = int(sampler.dim)
-    if d > 3 or sampler.family in ("regular", "correlated-multi-jitter"):
+def _covariogram(asked: _Asked) -> Ball | None:
+    f = asked.integrand
+    if not isinstance(f, BallIntegrand | Chord):
+        return None
+    return ball_variance(asked.sampler, asked.counts, f, asked.digits)
+
+
+def _lattice(asked: _Asked) -> Ball:
+    f = asked.integrand
+    largest = LARGEST_DIM - isinstance(f, Chord)  # of the ball whose chord it is
+    if f.dim > largest:
         raise InputError(
-            "an exact variance of an integrand that is no product needs --dim of at most 3 and a "
-            f"sampler without combs: got {sampler.name} with --dim {d}"
+            "an exact variance of an integrand that is neither a ridge nor a sum of products must "
+            f"have --dim of at most {largest}: got {f.name} with --dim {f.dim}"
         )
-    inside = total = 0.0
-    for m, energy in _lattice(integrand, d, int(box ** (1 / d)) // 2):
-        total += float(energy.sum())
-        inside += float((energy * power_array(sampler, counts, m)).sum())
-    with mp.workdps(20):
-        parseval = integrand.total(20)  # Σ_{m≠0} |f^(m)|²
-        tail = max(parseval - total, mp.mpf(0)) / counts["N"]
-    return ExactVariance(mp.mpf(inside) + tail, tail + 1e-12 * inside, "lattice")
+    return lattice_variance(asked.sampler, asked.counts, f, asked.box)
+
+
+_ROUTES: dict[str, Callable[[_Asked], Ball | None]] = {
+    "parseval": _parseval,
+    "product": _product,
+    "ridge": _ridge,
+    "covariogram": _covariogram,
+    "lattice": _lattice,
+}

@@ -1,21 +1,19 @@
 """Integrands with known Fourier coefficients, one file each."""
 
 from .ball import Ball
-from .bernoulli import Bernoulli
-from .box import Box
-from .gaussian import Gaussian
+from .chord import Chord
 from .grammar import CATALOGUE, parse_integrand
-from .product import Product
 from .protocol import Factor, Integrand
+from .ridge import Ridge
+from .separable import Separable
 
 __all__ = [
     "CATALOGUE",
     "Ball",
-    "Bernoulli",
-    "Box",
+    "Chord",
     "Factor",
-    "Gaussian",
     "Integrand",
-    "Product",
+    "Ridge",
+    "Separable",
     "parse_integrand",
 ]

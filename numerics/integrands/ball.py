@@ -6,9 +6,11 @@ from fractions import Fraction
 import numpy as np
 
 from ...theory.errors import InputError
+from ..balls import Ball as Number
+from ..balls import certified, exact_ball, flint
 from .box import interval
 from .literals import literal
-from .protocol import Factor, Floats, Ints, Mpf, mp, to_mpf
+from .protocol import Floats, Ints, Part
 
 
 @dataclass(frozen=True)
@@ -39,11 +41,14 @@ class Ball:
         return f"{'disk' if self.dim == 2 else 'ball'}:radius={literal(self.radius)}"
 
     @property
-    def factors(self) -> tuple[Factor, ...] | None:
-        """The factor of an interval in one dimension, else None."""
-        if self.dim == 1:
-            return (interval(2 * self.radius),)
-        return None
+    def parts(self) -> tuple[Part, ...]:
+        """In one dimension the interval, shifted to the origin; else none."""
+        return (((1, interval(2 * self.radius)),),) if self.dim == 1 else ()
+
+    @property
+    def support(self) -> tuple[int, ...] | None:
+        """The axis in one dimension; else power lies on every support."""
+        return (1,) if self.dim == 1 else None
 
     def __call__(self, points: Floats) -> Floats:
         """Values at points of shape (..., dim), shape (...)."""
@@ -61,14 +66,15 @@ class Ball:
         wave = (radius / safe) ** (self.dim / 2) * jv(self.dim / 2, 2 * np.pi * radius * safe)
         return np.where(rho == 0, float(self.mean(17)), wave) ** 2
 
-    def mean(self, digits: int) -> Mpf:
-        """Volume ``pi^(d/2) R^d / Gamma(d/2 + 1)``."""
-        with mp.workdps(digits + 5):
-            half = mp.mpf(self.dim) / 2
-            return mp.pi**half * to_mpf(self.radius) ** self.dim / mp.gamma(half + 1)
+    def mean(self, digits: int) -> Number:
+        """Volume ``pi^(d/2) R^d / Gamma(d/2 + 1)``, certified to the given number of digits."""
+        return certified(self._volume, digits)
 
-    def total(self, digits: int) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2 = V (1 - V)`` (Parseval)."""
-        with mp.workdps(digits + 5):
-            volume = self.mean(digits)
-            return volume * (1 - volume)
+    def total(self, digits: int) -> Number:
+        """``sum over m != 0 of |fhat(m)|^2 = V (1 - V)`` (Parseval), certified likewise."""
+        return certified(lambda: self._volume() * (1 - self._volume()), digits)
+
+    def _volume(self) -> Number:
+        power = flint.arb.pi() ** exact_ball(Fraction(self.dim, 2))
+        gamma = flint.arb.gamma_fmpq(flint.fmpq(self.dim + 2, 2))
+        return power * exact_ball(self.radius) ** self.dim / gamma

@@ -9,29 +9,22 @@ takes the second difference at distance phi = 1/r modulo 1 of its second antider
     pi sigma^2 phi (1 - phi) + sigma sqrt(pi) sum_j g(|j + phi|) + constant,
     g(t) = 2 sigma^2 exp(-t^2/(4 sigma^2)) - sigma sqrt(pi) t erfc(t/(2 sigma)).
 
-A comb n | m of the factor of width sigma is the factor of width n sigma, divided by n^2.
+A comb n | m of the factor of width sigma is the factor of width n sigma, divided by n^2. Every sum
+is cut where the rest is bounded, and the bound is part of the ball.
 """
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, floor
+from functools import lru_cache
+from math import floor, log, sqrt
 
 import numpy as np
 
 from ...theory.errors import InputError
-from .literals import exact, literal
-from .protocol import (
-    Count,
-    Factor,
-    Floats,
-    Ints,
-    Mpf,
-    mp,
-    product_mean,
-    product_power,
-    product_total,
-    to_mpf,
-)
+from ..balls import Ball, exact_ball, flint, rational
+from .literals import literal, positive
+from .protocol import Count, Floats, Ints
+from .separable import Separable
 
 _NARROW = Fraction(1, 20)  # at or below: translates; neither side needs more than about 25 terms
 _DOUBLE_WIDTHS = 9.0  # exp(-9^2/2) is below the rounding of a double
@@ -43,152 +36,132 @@ class GaussianFactor:
 
     sigma: Fraction
 
+    def values(self, x: Floats) -> Floats:
+        """f(x) for x in [0, 1): over translates, or over waves if wide."""
+        return _profile(x - 0.5, float(self.sigma))
+
     def power(self, m: Ints) -> Floats:
         """``|fhat(m)|^2 = 2 pi sigma^2 exp(-4 pi^2 sigma^2 m^2)`` in double precision."""
         variance = float(self.sigma) ** 2
         return 2 * np.pi * variance * np.exp(-4 * np.pi**2 * variance * np.asarray(m, float) ** 2)
 
-    def mean(self) -> Mpf:
+    def mean(self) -> Ball:
         """``sigma sqrt(2 pi)``."""
-        return to_mpf(self.sigma) * mp.sqrt(2 * mp.pi)
+        return exact_ball(self.sigma) * (2 * flint.arb.pi()).sqrt()
 
-    def total(self) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2``."""
-        return _total(self.sigma)
-
-    def sinc2_sum(self, n: Count) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2 sinc^2(m/n)``."""
-        return _smoothed(self.sigma, 1 / exact(n))
-
-    def comb_sum(self, n: int) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2``."""
-        return _total(self.sigma * exact(n)) / n**2
-
-    def comb_sinc2_sum(self, n: int, n2: Count) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2 sinc^2(m/n2)``."""
-        return _smoothed(self.sigma * exact(n), n / exact(n2)) / n**2
+    def power_sum(self, comb: int = 1, count: Count | None = None) -> Ball:
+        """``sum over m != 0, comb | m, of |fhat(m)|^2 sinc^2(m/count)``, or without sinc^2."""
+        sigma, precision = self.sigma * positive(comb), flint.ctx.prec
+        if count is None:
+            return _total(sigma, precision) / comb**2
+        return _smoothed(sigma, Fraction(comb) / positive(count), precision) / comb**2
 
 
-def _guard(sigma: Fraction) -> int:
-    """Extra bits: exp(-x) loses those of x, at most ``16 pi^2 sigma^2`` and a few."""
-    return 25 + 2 * ceil(sigma).bit_length()
+def _theta(c: Ball) -> Ball:
+    """``sum over m >= 1 of exp(-c m^2)``, c at least 0.09.
 
-
-def _terms(s: Mpf) -> int:
-    """Number M of frequencies that reach the working precision.
-
-    ``c (M^2 - 1) >= (digits + 5) ln 10`` with ``c = 4 pi^2 s^2``: the terms m > M sum to less than
-    ``exp(-c M^2)/(1 - exp(-c))``, at most 11 x 10^-(digits + 5) of the term m = 1.
+    Beyond M the rest is below ``q^((M+1)^2)/(1 - q)``, q = exp(-c), as (M+1+j)^2 >= (M+1)^2 + j.
     """
-    return int(mp.ceil(mp.sqrt(1 + (mp.dps + 5) * mp.ln10 / (2 * mp.pi * s) ** 2)))
+    q = (-c).exp()
+    square = q * q
+    term, ratio, total = q, square * q, flint.arb(0)
+    for _ in range(_reach(float(c))):
+        total += term
+        term, ratio = term * ratio, ratio * square
+    return total + (term / (1 - q)).union(flint.arb(0))
 
 
-def _total(sigma: Fraction) -> Mpf:
-    """``sum over m != 0 of 2 pi sigma^2 exp(-4 pi^2 sigma^2 m^2)``."""
-    with mp.extraprec(_guard(sigma)):
-        s = to_mpf(sigma)
-        if sigma > _NARROW:
-            waves = mp.fsum(mp.exp(-((2 * mp.pi * s * m) ** 2)) for m in range(1, _terms(s) + 1))
-            result = 4 * mp.pi * s**2 * waves
-        else:
-            reach = int(2 * s * mp.sqrt(mp.dps * mp.ln10)) + 1
-            images = mp.fsum(mp.exp(-(j**2) / (4 * s**2)) for j in range(1, reach + 1))
-            result = s * mp.sqrt(mp.pi) * (1 + 2 * images) - 2 * mp.pi * s**2
-    return +result
+def _reach(c: float) -> int:
+    """M with exp(-c ((M + 1)^2 - 1)) below the rounding; how far matters, not exactly where."""
+    return max(1, floor(sqrt(1 + (flint.ctx.prec + 10) * log(2) / c)))
 
 
-def _smoothed(sigma: Fraction, step: Fraction) -> Mpf:
+@lru_cache(maxsize=512)
+def _total(sigma: Fraction, precision: int) -> Ball:
+    """``sum over m != 0 of 2 pi sigma^2 exp(-4 pi^2 sigma^2 m^2)``, at the precision in force."""
+    del precision  # part of the key alone
+    return _total_images(sigma) if sigma <= _NARROW else _total_waves(sigma)
+
+
+def _total_waves(sigma: Fraction) -> Ball:
+    s, pi = exact_ball(sigma), flint.arb.pi()
+    return 4 * pi * s**2 * _theta((2 * pi * s) ** 2)
+
+
+def _total_images(sigma: Fraction) -> Ball:
+    s, pi = exact_ball(sigma), flint.arb.pi()
+    return s * pi.sqrt() * (1 + 2 * _theta(1 / (4 * s**2))) - 2 * pi * s**2
+
+
+@lru_cache(maxsize=512)
+def _smoothed(sigma: Fraction, step: Fraction, precision: int) -> Ball:
     """``sum over m != 0 of 2 pi sigma^2 exp(-4 pi^2 sigma^2 m^2) sinc^2(m step)``."""
-    phi = step % 1
-    if phi == 0:
-        return mp.mpf(0)
-    if sigma > _NARROW:
-        return _smoothed_waves(sigma, step)
-    # The two parts of the second difference, of size sigma^2, leave one of size phi^2: the
-    # digits that they share are added beforehand.
-    ratio = sigma / min(phi, 1 - phi)
-    shared = max(0, 2 * (ratio.numerator.bit_length() - ratio.denominator.bit_length() + 1))
-    with mp.extraprec(20 + shared):
-        s, x = to_mpf(sigma), to_mpf(phi)
-        rise = _images(s, x) - _images(s, mp.mpf(0))
-        result = 2 * mp.pi * s**2 * x * (1 - x) + 2 * s * mp.sqrt(mp.pi) * rise
-        result /= to_mpf(step) ** 2
-    return +result
+    del precision
+    if step.denominator == 1:
+        return flint.arb(0)
+    return _smoothed_images(sigma, step) if sigma <= _NARROW else _smoothed_waves(sigma, step)
 
 
-def _smoothed_waves(sigma: Fraction, step: Fraction) -> Mpf:
-    with mp.extraprec(_guard(sigma)):
-        s, result = to_mpf(sigma), mp.mpf(0)
-        for m in range(1, _terms(s) + 1):
-            sinc = mp.sinpi(to_mpf(m * step % 1)) / (mp.pi * to_mpf(m * step))
-            result += mp.exp(-((2 * mp.pi * s * m) ** 2)) * sinc**2
-        result *= 4 * mp.pi * s**2
-    return +result
+def _smoothed_waves(sigma: Fraction, step: Fraction) -> Ball:
+    """Over frequencies; the rest is that of the theta function, sinc^2 <= 1 or 1/(pi step)^2."""
+    s, pi, turn = exact_ball(sigma), flint.arb.pi(), rational(step)
+    c, scale = (2 * pi * s) ** 2, (pi * exact_ball(step)) ** 2
+    q = (-c).exp()
+    square = q * q
+    term, ratio, total = q, square * q, flint.arb(0)
+    for m in range(1, _reach(float(c)) + 1):
+        sine = flint.arb.sin_pi_fmpq(m * turn) / m
+        total += term * sine * sine
+        term, ratio = term * ratio, ratio * square
+    rest = term / (1 - q) * scale.min(flint.arb(1))
+    return 4 * pi * s**2 * (total + rest.union(flint.arb(0))) / scale
 
 
-def _images(s: Mpf, x: Mpf) -> Mpf:
-    """``sum over integers j of g(|j + x|)``, ``0 <= x < 1``; terms decay like exp(-t^2/(4 s^2))."""
-    reach = int(2 * s * mp.sqrt(mp.dps * mp.ln10)) + 2
-    result = mp.mpf(0)
-    for j in range(-reach, reach + 1):
-        t = abs(j + x)
-        result += 2 * s**2 * mp.exp(-(t**2) / (4 * s**2))
-        result -= s * mp.sqrt(mp.pi) * t * mp.erfc(t / (2 * s))
-    return result
+def _smoothed_images(sigma: Fraction, step: Fraction) -> Ball:
+    """Over translates: the second difference of the second antiderivative."""
+    s, x, pi = exact_ball(sigma), exact_ball(step % 1), flint.arb.pi()
+    rise = _images(s, x) - _images(s, flint.arb(0))
+    return (2 * pi * s**2 * x * (1 - x) + 2 * s * pi.sqrt() * rise) / exact_ball(step) ** 2
 
 
-@dataclass(frozen=True)
-class Gaussian:
+def _images(s: Ball, x: Ball) -> Ball:
+    """``sum over integers j of g(|j + x|)``, ``0 <= x < 1``.
+
+    ``g(t) = int_t^oo (v - t) exp(-v^2/(4 s^2)) dv`` lies between 0 and ``2 s^2 exp(-t^2/(4 s^2))``,
+    and the images left out are at least M, M + 1, ... away, on either side.
+    """
+    c, root = 1 / (4 * s**2), s * flint.arb.pi().sqrt()
+    reach = _reach(float(c))
+    total = flint.arb(0)
+    for t in [t for j in range(reach) for t in (j + x, j + 1 - x)]:
+        total += 2 * s**2 * (-c * t**2).exp() - root * t * (t / (2 * s)).erfc()
+    rest = 4 * s**2 * (-c * reach**2).exp() / (1 - (-c).exp())
+    return total + rest.union(flint.arb(0))
+
+
+def gaussian(sigmas: tuple[Fraction, ...]) -> Separable:
     """Periodised Gaussian centred in the cube, one width per coordinate.
 
     Parameters
     ----------
     sigmas : tuple of Fraction
-        Widths, each 0 < sigma.
+        Widths, each 0 < sigma: ``gaussian:sigma=s`` where all agree, else
+        ``anisotropic-gaussian``.
+
+    Raises
+    ------
+    InputError
+        If a width is not positive.
     """
-
-    sigmas: tuple[Fraction, ...]
-
-    def __post_init__(self) -> None:
-        for sigma in self.sigmas:
-            if not sigma > 0:
-                raise InputError(f"gaussian: sigma must satisfy 0 < sigma: got {literal(sigma)}")
-
-    @property
-    def name(self) -> str:
-        """``gaussian:sigma=s`` where all widths agree, else ``anisotropic-gaussian``."""
-        if len(set(self.sigmas)) == 1:
-            return f"gaussian:sigma={literal(self.sigmas[0])}"
-        return f"anisotropic-gaussian:sigma={literal(self.sigmas)}"
-
-    @property
-    def dim(self) -> int:
-        """Number of coordinates."""
-        return len(self.sigmas)
-
-    @property
-    def factors(self) -> tuple[Factor, ...]:
-        """One factor per coordinate."""
-        return tuple(map(GaussianFactor, self.sigmas))
-
-    def __call__(self, points: Floats) -> Floats:
-        """Values at points of shape (..., dim), shape (...)."""
-        result = np.ones(points.shape[:-1])
-        for i, sigma in enumerate(self.sigmas):
-            result *= _profile(points[..., i] - 0.5, float(sigma))
-        return result
-
-    def coefficient_power(self, m: Ints) -> Floats:
-        """``|fhat(m)|^2`` at integer frequencies of shape (..., dim), shape (...)."""
-        return product_power(self.factors, m)
-
-    def mean(self, digits: int) -> Mpf:
-        """``prod_i sigma_i sqrt(2 pi)``."""
-        return product_mean(self.factors, digits)
-
-    def total(self, digits: int) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2``."""
-        return product_total(self.factors, digits)
+    for sigma in sigmas:
+        if not sigma > 0:
+            raise InputError(f"gaussian: sigma must satisfy 0 < sigma: got {literal(sigma)}")
+    same = len(set(sigmas)) == 1
+    name = f"gaussian:sigma={literal(sigmas[0])}"
+    if not same:
+        name = f"anisotropic-gaussian:sigma={literal(sigmas)}"
+    part = tuple((i, GaussianFactor(s)) for i, s in enumerate(sigmas, 1))
+    return Separable(name, len(sigmas), (part,))
 
 
 def _profile(x: Floats, sigma: float) -> Floats:

@@ -1,7 +1,7 @@
 """Integrands by name: ``NAME`` or ``NAME:key=value,key=value``, read without evaluation.
 
 A value is an exact decimal or fraction, or a parenthesised list of them, one per coordinate:
-``disk:radius=0.3``, ``box:side=(1/3,0.5)``, ``bernoulli:k=2,axes=(1,2)``.
+``disk:radius=0.3``, ``box:side=(1/3,0.5)``, ``bernoulli:k=2,axes=(1,2)``, ``ridge:k=(1,-1)``.
 """
 
 import re
@@ -11,17 +11,22 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from ...theory.errors import InputError
+from .additive import additive
 from .ball import Ball
-from .bernoulli import Bernoulli
-from .box import Box
-from .gaussian import Gaussian
+from .bernoulli import bernoulli
+from .box import box
+from .chord import Chord
+from .gaussian import gaussian
+from .half_space import half_space
 from .literals import Value, literal, parse_value
-from .product import Product
+from .polylog import polylog
+from .product import product
 from .protocol import Integrand
+from .ridge import Ridge
 
 Values: TypeAlias = Mapping[str, Value]
 
-_LONGEST = 2000  # characters; longer text is no integrand
+_LONGEST = 20_000  # characters, a list of a thousand numbers; longer text is no integrand
 _COMMA = re.compile(r",(?![^()]*\))")  # commas outside parentheses
 
 
@@ -44,37 +49,63 @@ def _ball(dim: int, values: Values) -> Integrand:
     return Ball(dim, _number(values, "radius", Fraction(3, 10)))
 
 
+def _chord(dim: int, values: Values) -> Integrand:
+    return Chord(dim, _number(values, "radius", Fraction(3, 10)))
+
+
 def _gaussian(dim: int, values: Values) -> Integrand:
-    return Gaussian((_number(values, "sigma", Fraction(1, 10)),) * dim)
+    return gaussian((_number(values, "sigma", Fraction(1, 10)),) * dim)
 
 
 def _anisotropic_gaussian(dim: int, values: Values) -> Integrand:
     default = (Fraction(1, 10), *(Fraction(2, 5),) * (dim - 1))
-    return Gaussian(_per_axis(values, "sigma", default))
+    return gaussian(_per_axis(values, "sigma", default))
 
 
 def _box(dim: int, values: Values) -> Integrand:
-    return Box(_per_axis(values, "side", (Fraction(3, 10),) * dim))
+    return box(_per_axis(values, "side", (Fraction(3, 10),) * dim))
+
+
+def _half_space(dim: int, values: Values) -> Integrand:
+    return half_space(dim, _number(values, "side", Fraction(3, 10)))
 
 
 def _bernoulli(dim: int, values: Values) -> Integrand:
     axes = values.get("axes", Fraction(1))
     numbers = axes if isinstance(axes, tuple) else (axes,)
-    return Bernoulli(dim, _integer(values, "k", 2), tuple(_whole("axes", n) for n in numbers))
+    return bernoulli(dim, _integer(values, "k", 2), tuple(_whole("axes", n) for n in numbers))
 
 
 def _product(dim: int, values: Values) -> Integrand:
-    return Product(dim, _integer(values, "k", 2), _number(values, "c", Fraction(1)))
+    return product(dim, _integer(values, "k", 2), _number(values, "c", Fraction(1)))
+
+
+def _additive(dim: int, values: Values) -> Integrand:
+    return additive(dim, _integer(values, "k", 2))
+
+
+def _polylog(dim: int, values: Values) -> Integrand:
+    return polylog(dim, _number(values, "p", Fraction(5, 2)))
+
+
+def _ridge(dim: int, values: Values) -> Integrand:
+    direction = _per_axis(values, "k", (Fraction(1),) * dim)
+    return Ridge(tuple(_whole("k", n) for n in direction), _integer(values, "b", 2))
 
 
 CATALOGUE: tuple[Entry, ...] = (
     Entry("disk", ("radius",), _disk),
     Entry("ball", ("radius",), _ball),
+    Entry("chord", ("radius",), _chord),
     Entry("gaussian", ("sigma",), _gaussian),
     Entry("anisotropic-gaussian", ("sigma",), _anisotropic_gaussian),
     Entry("box", ("side",), _box),
+    Entry("half-space", ("side",), _half_space),
     Entry("bernoulli", ("k", "axes"), _bernoulli),
     Entry("product", ("k", "c"), _product),
+    Entry("additive", ("k",), _additive),
+    Entry("polylog", ("p",), _polylog),
+    Entry("ridge", ("k", "b"), _ridge),
 )
 
 

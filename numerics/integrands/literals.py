@@ -9,7 +9,6 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from ...theory.errors import InputError
-from .protocol import Count, mp
 
 Value: TypeAlias = Fraction | tuple[Fraction, ...]
 
@@ -54,21 +53,14 @@ def literal(value: Value) -> str:
     return str(value)
 
 
-def exact(count: Count) -> Fraction:
-    """The number of strata as a rational: an ``mpf`` is a dyadic fraction.
+def positive(count: int | Fraction) -> int | Fraction:
+    """The number of strata itself.
 
     Raises
     ------
     InputError
-        Unless the number is finite and positive.
+        Unless it is positive.
     """
-    if isinstance(count, int):
-        value = Fraction(count)
-    elif mp.isfinite(count):
-        mantissa, exponent = mp.mpf(count).man_exp
-        value = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-    else:
-        value = Fraction(0)
-    if value <= 0:
-        raise InputError(f"a number of strata must satisfy 0 < n < oo: got {count}")
-    return value
+    if not count > 0:
+        raise InputError(f"a number of strata must satisfy 0 < n: got {count}")
+    return count

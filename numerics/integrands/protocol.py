@@ -1,21 +1,21 @@
-"""What an integrand is: exact parameters, values, Fourier powers and, for a product, 1D power sums.
+"""What an integrand is: exact parameters, values, Fourier powers and, for products, power sums.
 
 The variance of a randomly shifted sampler is ``sum over m != 0 of P_S(m) |fhat(m)|^2`` with
 ``fhat(m) = int f(x) exp(-2 pi i m.x) dx`` on the unit torus. A sampler's expected spectrum P_S is
 a short sum of products over coordinates whose factors are 1, [m = 0], ``sinc^2(m/n)``, [n | m] or
 ``[n | m] sinc^2(m/n')``. For ``f = prod_i f_i(x_i)`` the variance is then a short sum of products
-of the five numbers that a `Factor` gives.
+of the numbers that a `Factor` gives. Such numbers are balls, made from exact parameters at the
+precision in force (``flint.ctx.prec``): their error is proven.
 """
 
-from collections.abc import Sequence
 from fractions import Fraction
-from functools import reduce
-from operator import mul
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from mpmath import mp as _mp  # pyright: ignore[reportMissingTypeStubs]
 from numpy.typing import NDArray
+
+from ..balls import Ball
 
 mp: Any = _mp
 """The mpmath context; mpmath carries no types, so that it enters the package as ``Any`` here."""
@@ -25,40 +25,36 @@ Mpf: TypeAlias = Any
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
-Count: TypeAlias = int | Mpf
-"""A number of strata: a positive integer, or a positive ``mpmath.mpf``."""
+Count: TypeAlias = int | Fraction
+"""A number of strata, positive; an integer but where a sum is tested between the integers."""
 
 
 class Factor(Protocol):
-    """A function of one coordinate, by its mean and sums of ``|fhat(m)|^2`` over m != 0.
+    """A function of one coordinate; equal parameters make equal, hashable, picklable objects."""
 
-    The methods without arrays work at the precision of ``mpmath.mp``; their errors are a few
-    units in the last place of the sum without its sinc^2 factor.
-    """
+    def values(self, x: Floats) -> Floats:
+        """f(x) for x in [0, 1), in double precision."""
+        ...
 
     def power(self, m: Ints) -> Floats:
         """``|fhat(m)|^2`` in double precision, m = 0 included."""
         ...
 
-    def mean(self) -> Mpf:
+    def mean(self) -> Ball:
         """``fhat(0)``."""
         ...
 
-    def total(self) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2``, the variance of f."""
+    def power_sum(self, comb: int = 1, count: Count | None = None) -> Ball:
+        """``sum over m != 0, comb | m, of |fhat(m)|^2 sinc^2(m/count)``, or without sinc^2.
+
+        Where the sum is zero because ``comb/count`` is an integer, or because f is constant or a
+        step function that the comb does not see, the ball is exactly zero.
+        """
         ...
 
-    def sinc2_sum(self, n: Count) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2 sinc^2(m/n)``."""
-        ...
 
-    def comb_sum(self, n: int) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2``."""
-        ...
-
-    def comb_sinc2_sum(self, n: int, n2: Count) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2 sinc^2(m/n2)``."""
-        ...
+Part: TypeAlias = tuple[tuple[int, Factor], ...]
+"""``prod_i f_i(x_i)`` over some coordinates i, counted from 1 and increasing, with their f_i."""
 
 
 class Integrand(Protocol):
@@ -75,8 +71,13 @@ class Integrand(Protocol):
         ...
 
     @property
-    def factors(self) -> tuple[Factor, ...] | None:
-        """One factor per coordinate, or None where f is not a product."""
+    def parts(self) -> tuple[Part, ...]:
+        """Products whose sum is f and of which no two have power at one m; () for other f."""
+        ...
+
+    @property
+    def support(self) -> tuple[int, ...] | None:
+        """Coordinates, from 1, of the one support that carries all power; None if several do."""
         ...
 
     def __call__(self, points: Floats) -> Floats:
@@ -87,42 +88,15 @@ class Integrand(Protocol):
         """``|fhat(m)|^2`` at integer frequencies of shape (..., dim), shape (...)."""
         ...
 
-    def mean(self, digits: int) -> Mpf:
-        """``fhat(0)`` to the given number of decimal digits."""
+    def mean(self, digits: int) -> Ball:
+        """``fhat(0)``, certified to the given number of decimal digits."""
         ...
 
-    def total(self, digits: int) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2`` to the given number of decimal digits."""
+    def total(self, digits: int) -> Ball:
+        """``sum over m != 0 of |fhat(m)|^2``, certified to the given number of decimal digits."""
         ...
 
 
-def product_power(factors: Sequence[Factor], m: Ints) -> Floats:
-    """``prod_i |fhat_i(m_i)|^2`` at integer frequencies of shape (..., d)."""
-    return reduce(mul, (f.power(m[..., i]) for i, f in enumerate(factors)))
-
-
-def product_mean(factors: Sequence[Factor], digits: int) -> Mpf:
-    """``prod_i mean_i``, to the given number of digits."""
-    with mp.workdps(digits + 5):
-        return mp.fprod(f.mean() for f in factors)
-
-
-def product_total(factors: Sequence[Factor], digits: int) -> Mpf:
-    """``prod_i (mean_i^2 + s_i) - prod_i mean_i^2``, summed without cancellation.
-
-    One coordinate at a time: with M the product of squared means and T the total so far,
-    ``T <- T (mean^2 + s) + M s``; every term is positive.
-    """
-    with mp.workdps(digits + 5):
-        total, mean2 = mp.mpf(0), mp.mpf(1)
-        for factor in factors:
-            s, square = factor.total(), factor.mean() ** 2
-            total, mean2 = total * (square + s) + mean2 * s, mean2 * square
-        return total
-
-
-def to_mpf(value: Fraction) -> Mpf:
-    """The rational, rounded to the working precision."""
-    with mp.extraprec(10):
-        result = mp.mpf(value.numerator) / value.denominator
-    return +result
+def to_mpf(ball: Ball) -> Mpf:
+    """The middle of the ball, exactly, whatever the working precision of mpmath."""
+    return mp.convert(ball.mid())

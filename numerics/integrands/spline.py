@@ -14,23 +14,21 @@ and worse, so they are taken in rationals: only the result is rounded, at any n.
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from math import comb, factorial, lcm
+from math import comb as binomial
+from math import factorial
 
 import numpy as np
 
-from .literals import exact
-from .protocol import Count, Floats, Ints, Mpf, to_mpf
+from ..balls import Ball, exact_ball, flint, rational
+from .literals import positive
+from .protocol import Count, Floats, Ints
 
 _INT64_SAFE = 2**31  # numerators and denominators below this multiply within int64
 
 
 @lru_cache(maxsize=64)
-def bernoulli_polynomial(k: int) -> tuple[Fraction, ...]:
-    """Coefficients of ``B_k``, constant first, from ``B_k' = k B_(k-1)`` and zero mean."""
-    if k == 0:
-        return (Fraction(1),)
-    rest = [k * c / (i + 1) for i, c in enumerate(bernoulli_polynomial(k - 1))]
-    return (-sum((c / (i + 2) for i, c in enumerate(rest)), Fraction(0)), *rest)
+def _bernoulli_polynomial(k: int) -> Ball:
+    return flint.fmpq_poly.bernoulli_poly(k)
 
 
 def bernoulli_values(k: int, x: Floats) -> Floats:
@@ -47,24 +45,25 @@ def bernoulli_values(k: int, x: Floats) -> Floats:
 
 @lru_cache(maxsize=64)
 def _centred_coefficients(k: int) -> tuple[float, ...]:
-    powers = bernoulli_polynomial(k)
+    powers = [Fraction(int(c.p), int(c.q)) for c in _bernoulli_polynomial(k).coeffs()]
     half = Fraction(1, 2)
     return tuple(
-        float(sum(powers[j] * comb(j, i) * half ** (j - i) for j in range(i, k + 1)))
+        float(sum(powers[j] * binomial(j, i) * half ** (j - i) for j in range(i, k + 1)))
         for i in range(k + 1)
     )
 
 
-def cosine_sum(k: int, h: Fraction) -> Fraction:
-    """``K_k(h) = sum over j != 0 of cos(2 pi j h)/(2 pi j)^(2k)``, exactly."""
-    p, q = (h % 1).as_integer_ratio()
-    coefficients = bernoulli_polynomial(2 * k)
-    scale = lcm(*(c.denominator for c in coefficients))
-    value, power = 0, 1
-    for c in reversed(coefficients):  # in integers: a Fraction would cancel at every step
-        value = value * p + int(c * scale) * power
-        power *= q
-    return (-1) ** (k - 1) * Fraction(value * q, power * scale * factorial(2 * k))
+def cosine_sum(k: int, h: Ball) -> Ball:
+    """``K_k(h) = sum over j != 0 of cos(2 pi j h)/(2 pi j)^(2k)``, an exact ``flint.fmpq``.
+
+    Parameters
+    ----------
+    k : int
+        At least 1.
+    h : flint.fmpq
+    """
+    value = _bernoulli_polynomial(2 * k)(h - h.floor()) / factorial(2 * k)
+    return value if k % 2 else -value
 
 
 @dataclass(frozen=True)
@@ -75,6 +74,19 @@ class SplineFactor:
     order: int
     knots: tuple[tuple[Fraction, Fraction], ...]
 
+    def values(self, x: Floats) -> Floats:
+        """f(x) for x in [0, 1); a step function takes its exact values."""
+        if self.order == 1:  # B_1({x - s}) = x - s - 1/2 + [x < s], 0 <= s < 1
+            result = float(sum(c for c, _ in self.knots)) * x
+            result += float(self.constant - sum(c * (s + Fraction(1, 2)) for c, s in self.knots))
+            for c, s in self.knots:
+                result += float(c) * (x < float(s))
+            return result
+        result = np.full(x.shape, float(self.constant))
+        for c, s in self.knots:
+            result += float(c) * bernoulli_values(self.order, (x - float(s)) % 1.0)
+        return result
+
     def power(self, m: Ints) -> Floats:
         """``|fhat(m)|^2`` in double precision, m = 0 included."""
         zero = m == 0
@@ -84,40 +96,33 @@ class SplineFactor:
         decay = (2 * np.pi * np.where(zero, 1, np.abs(m))) ** self.order / factorial(self.order)
         return np.where(zero, float(self.constant**2), (np.abs(wave) / decay) ** 2)
 
-    def mean(self) -> Mpf:
+    def mean(self) -> Ball:
         """``fhat(0)``."""
-        return to_mpf(self.constant)
+        return exact_ball(self.constant)
 
-    def total(self) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2``."""
-        return to_mpf(self._sum(1, None))
+    def power_sum(self, comb: int = 1, count: Count | None = None) -> Ball:
+        """``sum over m != 0, comb | m, of |fhat(m)|^2 sinc^2(m/count)``, or without sinc^2.
 
-    def sinc2_sum(self, n: Count) -> Mpf:
-        """``sum over m != 0 of |fhat(m)|^2 sinc^2(m/n)``."""
-        return to_mpf(self._sum(1, exact(n)))
+        The rational sum rounded to a ball, so that a sum that vanishes is exactly zero.
+        """
+        return flint.arb(_exact_sum(self, comb, count))
 
-    def comb_sum(self, n: int) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2``."""
-        return to_mpf(self._sum(n, None))
 
-    def comb_sinc2_sum(self, n: int, n2: Count) -> Mpf:
-        """``sum over m != 0, n | m, of |fhat(m)|^2 sinc^2(m/n2)``."""
-        return to_mpf(self._sum(n, exact(n2) / n))
-
-    def _sum(self, n: int, r: Fraction | None) -> Fraction:
-        """Sum over j != 0 of ``|fhat(n j)|^2 sinc^2(j/r)``, without sinc^2 where r is None."""
-        exact(n)
-        k = self.order
-        result = Fraction(0)
-        for c, s in self.knots:
-            for d, t in self.knots:
-                h = n * (s - t)
-                if r is None:
-                    result += c * d * cosine_sum(k, h)
-                else:
-                    pair = cosine_sum(k + 1, h + 1 / r) + cosine_sum(k + 1, h - 1 / r)
-                    result += c * d * r**2 * (2 * cosine_sum(k + 1, h) - pair)
-        return result * factorial(k) ** 2 / Fraction(n) ** (2 * k)
+@lru_cache(maxsize=512)
+def _exact_sum(f: SplineFactor, comb: int, count: Count | None) -> Ball:
+    """The power sum as ``flint.fmpq``, independent of the precision in force."""
+    k = f.order
+    step = None if count is None else rational(Fraction(positive(comb)) / positive(count))
+    result = flint.fmpq(0)
+    for c, s in f.knots:
+        for d, t in f.knots:
+            h = rational(positive(comb) * (s - t))
+            if step is None:
+                result += rational(c * d) * cosine_sum(k, h)
+            else:
+                pair = cosine_sum(k + 1, h + step) + cosine_sum(k + 1, h - step)
+                result += rational(c * d) * (2 * cosine_sum(k + 1, h) - pair) / step**2
+    return result * factorial(k) ** 2 / flint.fmpq(comb) ** (2 * k)
 
 
 def _phase(m: Ints, s: Fraction) -> Floats:
