@@ -1,13 +1,13 @@
-"""Eq. 17 along one region as a certified number, by three independent routes.
+"""Eq. 17 along one region as a certified number, by two independent routes.
 
 - ``closed``: the power-rule form of ``specrate.theory.radial``, in ball arithmetic.
 - ``quadrature``: ball-arithmetic quadrature of the two spectra, with breaks at ρ0 and ν, each
   piece in t = log ρ, so that any N is a matter of the length of an interval; the ends at 0 and ∞
   are cut where the rest is bounded below the error asked for.
-- ``mpmath``: ``mpmath.quad`` of the same pieces in t, an estimate that certifies nothing.
 
 Every input is exact (a fraction; N a fraction or a power of ten), so that b = 1 ± 1e-12 or
-N = 1e5000 lose nothing: ball arithmetic raises its precision until the digits stand.
+N = 1e5000 lose nothing: ball arithmetic raises its precision until the digits stand. Scales enter
+by their logarithms: ρ0^b of a step is a number of a million digits, its logarithm is not.
 """
 
 import re
@@ -15,18 +15,20 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from math import ceil, log2
+from typing import Any
 
 from ..theory.errors import InputError
-from ..theory.radial import Leading, PowerLog, Radial, leading, power_log_terms
+from ..theory.radial import RHO_0, Leading, PowerLog, Radial, leading, power_log_terms
 from ..theory.symbolic import Expr, Integer, Rational, sympy
 from .balls import Ball, Certified, certified, exact_ball, flint, spelled
-from .integrands.protocol import Mpf, mp
 
 _NUMBER = re.compile(
     r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"
 )
-_LONGEST = 40  # in t = log ρ: over longer pieces mpmath.quad loses digits and does not say so
+_C_2, _ALPHA = sympy.Symbol("c_2", positive=True), sympy.Symbol("alpha", positive=True)
+_SPARE = 40  # digits with which V is certified for its logarithm, which may be small
+_LARGEST_POWER = 4096  # bits of a power that is written out in a leading constant
 _LOG = re.compile(r"log:([+-]?\d{1,9}(\.\d{0,60})?)")
 
 
@@ -82,26 +84,26 @@ class RadialProblem:
                 raise InputError(f"a radial problem must satisfy {rule}: got {value}")
 
     def theory(self) -> Radial:
-        """The same problem in the theory room."""
-        c2: Expr = Integer(0)
-        if self.decay is not None:
-            c2 = _rational(self.rho0) ** _rational(self.decay) if self.continuous else Integer(1)
+        """The same problem in the theory room; ρ0, α and c2 are symbols there."""
         return Radial(
             _rational(self.degree),
             Integer(self.dimension),
             sympy.oo if self.decay is None else _rational(self.decay),
             _rational(self.effective),
             _rational(self.gamma),
-            _rational(self.alpha),
+            _ALPHA,
             Integer(1),
-            c2,
-            _rational(self.rho0),
+            Integer(0) if self.decay is None else _C_2,
+            RHO_0,
         )
 
 
 @dataclass(frozen=True)
 class RadialResult:
-    """Value with its bound, its natural logarithm, leading term and the time it took."""
+    """Value with its bound, its natural logarithm, leading term and the time it took.
+
+    The constant of the leading term has numbers for ρ0 and α, unless their powers are too long.
+    """
 
     value: Certified
     log_value: str
@@ -194,14 +196,46 @@ def solve(problem: RadialProblem, digits: int = 15, route: str = "closed") -> Ra
     if not 1 <= digits <= 10_000:
         raise InputError(f"--digits must be in 1..10000: got {digits}")
     began = time.perf_counter()
-    evaluate = _closed(problem) if route == "closed" else _quadrature(problem)
+    evaluate = prepared(problem, route)
     ball = certified(evaluate, digits)
-    log_value = certified(lambda: evaluate().log(), min(digits, 15))
+    log_value = _log_text(evaluate, digits)
     seconds = time.perf_counter() - began
+    return RadialResult(spelled(ball, digits), log_value, _leading(problem), route, seconds)
+
+
+def _log_text(evaluate: Callable[[], Ball], digits: int) -> str:
+    """log V with 15 digits at most; V = 1 has none of them, so that V is what gets certified."""
+    ball = certified(evaluate, digits + _SPARE)
+    with flint.ctx.workprec(ceil((digits + 2 * _SPARE) * log2(10))):
+        log_value = ball.log()
+    return "0" if log_value.contains(0) else spelled(log_value, min(digits, 15)).value
+
+
+def prepared(problem: RadialProblem, route: str = "closed") -> Callable[[], Ball]:
+    """Eq. 17 as a function that gives the ball at the precision in force, for ``certified``.
+
+    What does not depend on the precision is done once, so that the closed form then takes
+    microseconds.
+
+    Parameters
+    ----------
+    route : {"closed", "quadrature"}
+    """
+    return _closed(problem) if route == "closed" else _quadrature(problem)
+
+
+def _leading(problem: RadialProblem) -> Leading | None:
     found = leading(problem.theory())
-    return RadialResult(
-        spelled(ball, digits), spelled(log_value, min(digits, 15)).value, found, route, seconds
-    )
+    if found is None:
+        return None
+    c2 = RHO_0 ** _rational(problem.decay or Fraction(0)) if problem.continuous else Integer(1)
+    constant = found.constant.subs(_C_2, c2)
+    for symbol, number in ((RHO_0, problem.rho0), (_ALPHA, problem.alpha)):
+        powers = [x.as_base_exp()[1] for x in constant.atoms(symbol, sympy.Pow)]
+        bits = max(log2(number.numerator), log2(number.denominator))
+        if all((abs(k.p) + k.q) * bits <= _LARGEST_POWER for k in powers):
+            constant = constant.subs(symbol, _rational(number))
+    return Leading(found.order, constant)
 
 
 def _count(problem: RadialProblem) -> Ball:
@@ -236,40 +270,46 @@ def is_crossed(problem: RadialProblem) -> bool:
     return True
 
 
+@dataclass(frozen=True)
+class _Term:
+    """coefficient · ρ0^of_rho0 · ν^of_nu · log(ν/ρ0)^log, the numbers as ``flint.fmpq``."""
+
+    coefficient: Any
+    of_rho0: Any
+    of_nu: Any
+    log: int
+
+
 def _closed(problem: RadialProblem) -> Callable[[], Ball]:
     """The sum of powers of ν, term by term."""
-    terms = power_log_terms(problem.theory(), is_crossed(problem))
+    terms = [_term(problem, t) for t in power_log_terms(problem.theory(), is_crossed(problem))]
 
     def evaluate() -> Ball:
-        log_nu = _log_nu(problem)
-        log_gap = log_nu - exact_ball(problem.rho0).log()
+        log_nu, log_rho0 = _log_nu(problem), exact_ball(problem.rho0).log()
         total = flint.arb(0)
         for t in terms:
-            total += _term(t, log_nu, log_gap)
+            value = (t.of_rho0 * log_rho0 + t.of_nu * log_nu).exp() * t.coefficient
+            total += value * (log_nu - log_rho0) if t.log else value
         return total * exact_ball(problem.gamma) / _count(problem)
 
     return evaluate
 
 
-def _term(term: PowerLog, log_nu: Ball, log_gap: Ball) -> Ball:
-    value = _ball_of(term.coefficient) * (_ball_of(term.power) * log_nu).exp()
-    return value * log_gap if term.log else value
+def _term(problem: RadialProblem, term: PowerLog) -> _Term:
+    """A term of the theory, a rational times powers of ρ0 and c2, with c2 a power of ρ0 too."""
+    powers = term.coefficient.as_powers_dict()
+    coefficient, of_rho0 = Integer(1), powers.pop(RHO_0, Integer(0))
+    if powers.pop(_C_2, 0) and problem.continuous:
+        assert problem.decay is not None
+        of_rho0 += _rational(problem.decay)
+    for base, power in powers.items():
+        coefficient *= base**power
+    return _Term(_fmpq(coefficient), _fmpq(of_rho0), _fmpq(term.power), term.log)
 
 
-def _ball_of(expression: Expr) -> Ball:
-    """A product of rational powers of rationals as a ball."""
-    if expression.is_Rational:
-        return flint.arb(flint.fmpq(int(expression.p), int(expression.q)))
-    if expression.is_Pow:
-        return (_ball_of(expression.exp) * _ball_of(expression.base).log()).exp()
-    if expression.is_Mul:
-        value = flint.arb(1)
-        for factor in expression.args:
-            value *= _ball_of(factor)
-        return value
-    if expression.is_Add:
-        return sum((_ball_of(a) for a in expression.args), flint.arb(0))
-    raise InputError(f"a radial constant must be made of rational powers: got {expression}")
+def _fmpq(number: Expr) -> Any:
+    assert number.is_Rational
+    return flint.fmpq(int(number.p), int(number.q))
 
 
 # A piece is (log amplitude, power, from, to): ∫ A e^(power t) dt, t = log ρ; None is ±∞.
@@ -333,46 +373,3 @@ def _quadrature(problem: RadialProblem) -> Callable[[], Ball]:
         return value
 
     return evaluate
-
-
-def by_mpmath(problem: RadialProblem, digits: int = 15) -> Mpf:
-    """``mpmath.quad`` over the same pieces in log ρ: an estimate, certified by nothing."""
-    with mp.workdps(digits + 10):
-        ten = mp.mpf(10)
-        if problem.count is not None:
-            n = mp.mpf(problem.count.numerator) / problem.count.denominator
-        else:
-            assert problem.log10_n is not None
-            n = ten ** (mp.mpf(problem.log10_n.numerator) / problem.log10_n.denominator)
-        b, e, rho0 = (_mpf(v) for v in (problem.degree, problem.effective, problem.rho0))
-        nu = _mpf(problem.alpha) * n**e
-
-        def density(t: Mpf) -> Mpf:
-            rho = mp.exp(t)
-            below = min(rho / nu, mp.mpf(1)) ** b
-            if rho < rho0:
-                return rho**problem.dimension * below
-            if problem.decay is None:
-                return mp.mpf(0)
-            p = _mpf(problem.decay)
-            fall = (rho0 / rho) ** p if problem.continuous else rho**-p
-            return rho**problem.dimension * below * fall
-
-        breaks = sorted({mp.log(rho0), mp.log(nu)})
-        reach = (digits + 10) * mp.log(10)
-        slowest = 1 if problem.decay is None else _mpf(problem.decay) - problem.dimension
-        ends = [breaks[0] - reach, *breaks, breaks[-1] + reach / slowest]
-        points = [
-            low + (high - low) * k / parts
-            for low, high in pairwise(ends)
-            for parts in [max(1, int(mp.ceil((high - low) / _LONGEST)))]
-            for k in range(parts)
-        ]
-        # mpmath.quad stops at an absolute error: make the largest value about 1.
-        top = max(density(t - mp.mpf("0.01")) for t in breaks)  # inside: at ρ0 P_f may be 0
-        total = mp.quad(lambda t: density(t) / top, [*points, ends[-1]])  # pyright: ignore[reportUnknownLambdaType]
-        return +(_mpf(problem.gamma) / n * top * total)
-
-
-def _mpf(value: Fraction) -> Mpf:
-    return mp.mpf(value.numerator) / value.denominator

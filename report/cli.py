@@ -85,7 +85,9 @@ def _parser() -> _Parser:
     _add_table(commands)
     _add_derive(commands)
     _add_check(commands)
+    _add_variance(commands)
     _add_radial(commands)
+    _add_stress(commands)
     return parser
 
 
@@ -147,6 +149,17 @@ def _add_check(commands: Commands) -> None:
     _add_format(p)
 
 
+def _add_variance(commands: Commands) -> None:
+    p = _command(commands, "variance", _variance, "exact variance at one N, certified")
+    p.add_argument("sampler", metavar="S")
+    p.add_argument("integrand", metavar="INTEGRAND", help="such as disk:radius=0.3")
+    p.add_argument("--dim", required=True, type=int, metavar="D")
+    p.add_argument("--n", required=True, metavar="N", help="number of points, such as 1e30")
+    p.add_argument("--digits", type=int, default=15, metavar="K")
+    p.add_argument("--method", metavar="M", help="a route, else the first that applies")
+    _add_format(p)
+
+
 def _add_radial(commands: Commands) -> None:
     p = _command(commands, "radial", _radial, "Eq. 17 along one region, certified")
     p.add_argument("--degree", required=True, metavar="B", help="degree b of the profile")
@@ -160,6 +173,18 @@ def _add_radial(commands: Commands) -> None:
     p.add_argument("--discontinuous", action="store_true", help="c2 = c as printed in Eq. 16")
     p.add_argument("--digits", type=int, default=15, metavar="K")
     _add_format(p, ("terminal", "json"))
+
+
+def _add_stress(commands: Commands) -> None:
+    p = _command(commands, "stress", _stress, "stiff and extreme cases: is every error honest?")
+    p.add_argument(
+        "--diagram", metavar="DIR", help="draw error against time there instead, and time ratios"
+    )
+    p.add_argument(
+        "--budget", type=float, metavar="SECONDS", help="of the diagram; 60 unless given"
+    )
+    p.add_argument("--seed", type=int, metavar="S", help="of the diagram; 0 unless given")
+    _add_format(p)
 
 
 def _table(a: argparse.Namespace) -> tuple[str, int]:
@@ -215,6 +240,65 @@ def _radial(a: argparse.Namespace) -> tuple[str, int]:
         a.digits,
     )
     return render(found, a.format), DONE
+
+
+def _variance(a: argparse.Namespace) -> tuple[str, int]:
+    from ..numerics import variance
+    from .variance_formats import render, shortfall
+
+    found = variance(a.sampler, a.integrand, a.dim, a.n, a.digits, a.method)
+    if missing := shortfall(found, a.digits):
+        print(f"specrate: {missing}", file=sys.stderr)
+    return render(found, a.format), DONE
+
+
+def _stress(a: argparse.Namespace) -> tuple[str, int]:
+    from ..theory.errors import InputError
+
+    if a.diagram is not None:
+        return _diagram(a)
+    if a.budget is not None or a.seed is not None:
+        raise InputError("--budget and --seed must come with --diagram: got them without")
+    from ..numerics import stress_cases
+    from ..numerics.stress import stress
+    from .stress_formats import render
+
+    document = stress(stress_cases.FAMILIES, _progress)
+    _progress("")
+    code = DONE if document["honest"] else CONTRADICTED
+    return render(document, a.format), INTERRUPTED if document["interrupted"] else code
+
+
+def _diagram(a: argparse.Namespace) -> tuple[str, int]:
+    from ..numerics.work_precision import work_precision
+    from ..theory.errors import InputError
+    from .work_precision_figures import draw, require_matplotlib
+    from .work_precision_formats import render
+
+    require_matplotlib()
+    budget, seed = 60.0 if a.budget is None else a.budget, a.seed or 0
+    if not 0 < budget < float("inf") or seed < 0:
+        raise InputError(f"a diagram needs 0 < budget and 0 <= seed: got {budget} and {seed}")
+    folder = _folder(a.diagram)
+    document = work_precision(budget, seed, _progress)
+    _progress("")
+    for form in ("json", "csv"):
+        _write(render(document, form), str(folder / f"work_precision.{form}"))
+    draw(document, [folder / f"work_precision.{form}" for form in ("png", "svg")])
+    print(f"written to {folder}: work_precision.json, .csv, .png, .svg", file=sys.stderr)
+    return render(document, a.format), DONE
+
+
+def _folder(name: str) -> Path:
+    """A folder that can be written to, made if need be, before time is spent on what goes there."""
+    from ..theory.errors import InputError
+
+    folder = Path(name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"a folder must be writable: got {error.strerror} for {name}") from None
+    return folder
 
 
 def _progress(text: str) -> None:

@@ -75,6 +75,8 @@ def test_inconclusive_is_3(capsys: pytest.CaptureFixture[str]) -> None:
     assert "Undecided claims need a budget of about" in out
 
 
+DISK = ["variance", "jitter", "disk", "--dim", "2", "--n", "16"]
+
 BAD = {
     "unknown sampler": ["table", "--sampler", "jitterbug"],
     "unknown sampler to derive": ["derive", "jitterbug"],
@@ -115,6 +117,25 @@ BAD = {
     "budget infinite": ["check", "jitter", "--dim", "2", "--budget", "inf"],
     "seed -1": ["check", "jitter", "--dim", "2", "--seed", "-1"],
     "missing plan": ["check", "--plan", "no-such-plan.json"],
+    "variance of nothing": ["variance", "jitter"],
+    "variance of an unknown sampler": ["variance", "jitterbug", "disk", "--dim", "2", "--n", "4"],
+    "variance of an unknown integrand": ["variance", "jitter", "discus", "--dim", "2", "--n", "4"],
+    "variance at half a point": ["variance", "jitter", "disk", "--dim", "2", "--n", "1/2"],
+    "variance at N = 0": ["variance", "jitter", "disk", "--dim", "2", "--n", "0"],
+    "variance at a logarithm": ["variance", "jitter", "disk", "--dim", "2", "--n", "log:5"],
+    "variance in no dimension": ["variance", "jitter", "box", "--dim", "0", "--n", "4"],
+    "variance to no digits": [*DISK, "--digits", "0"],
+    "variance by an unknown method": [*DISK, "--method", "magic"],
+    "variance by a method not for it": [*DISK, "--method", "ridge"],
+    "variance of a free profile": ["variance", "isotropic:2", "disk", "--dim", "2", "--n", "4"],
+    "radial without N": ["radial", "--degree", "2", "--dim", "2", "--decay", "3"],
+    "budget without a diagram": ["stress", "--budget", "3"],
+    "seed without a diagram": ["stress", "--seed", "3"],
+    "diagram in a file": ["stress", "--diagram", __file__],
+    "diagram where nobody may": ["stress", "--diagram", "/proc/nowhere"],
+    "diagram with no budget": ["stress", "--diagram", "unused", "--budget", "0"],
+    "diagram with a budget that is no number": ["stress", "--diagram", "unused", "--budget", "nan"],
+    "diagram with a negative seed": ["stress", "--diagram", "unused", "--seed", "-1"],
 }
 
 
@@ -198,7 +219,9 @@ print("\\n" + " ".join(sys.modules))
     return set(done.stdout.splitlines()[-1].split())
 
 
-@pytest.mark.parametrize("command", [[], ["table"], ["derive"], ["check"]])
+@pytest.mark.parametrize(
+    "command", [[], ["table"], ["derive"], ["check"], ["variance"], ["radial"], ["stress"]]
+)
 def test_help_is_light(command: list[str]) -> None:
     assert not loaded_by(*command, "--help") & {"sympy", "numpy", "scipy", "mpmath", "flint"}
 

@@ -9,9 +9,14 @@ from typing import Any
 import jsonschema
 import pytest
 from specrate.numerics import check
+from specrate.numerics.integrands.protocol import mp
+from specrate.numerics.radial_cases import RADIAL
+from specrate.numerics.stress import Family, Method, Outcome, stress
+from specrate.numerics.work_precision import work_precision
 from specrate.report.cli import main
+from specrate.theory.errors import InputError
 
-COMMANDS = ("table", "derive", "check")
+COMMANDS = ("table", "derive", "check", "variance", "radial", "stress", "work_precision")
 
 CROSSING = ("table", "--dim", "2", "--sampler", "n-rooks", "--integrand", "anisotropic-gaussian")
 
@@ -129,6 +134,55 @@ def test_checks_have_the_verdicts_that_they_were_made_for(documents: dict[str, A
     assert documents["invalid"]["faults"]
 
 
+VARIANCES = (
+    ("jitter", "disk:radius=0.3", "--dim", "2", "--n", "1e6"),
+    ("jitter", "disk:radius=0.3", "--dim", "2", "--n", "1000", "--method", "lattice"),
+    ("random", "product:k=2", "--dim", "1000", "--n", "1e300", "--digits", "40"),
+    ("latin-hypercube", "box:side=(1/3,1)", "--dim", "2", "--n", "1e30"),
+    ("regular", "ridge:k=(1,-1)", "--dim", "2", "--n", "101"),
+)
+
+
+@pytest.mark.parametrize("arguments", VARIANCES)
+def test_variances(capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...]) -> None:
+    validate("variance", printed(capsys, "variance", *arguments))
+
+
+RADIALS = (
+    ("--degree", "2", "--dim", "2", "--decay", "3", "--n", "1e6"),
+    ("--degree", "1e6", "--dim", "1", "--decay", "oo", "--n", "log:5000"),
+    ("--degree", "1", "--dim", "1", "--decay", "2", "--n", "1e30", "--rho0", "1e12"),
+    ("--degree", "1e6", "--dim", "2", "--decay", "3", "--n", "4", "--rho0", "1e12"),
+)
+
+
+@pytest.mark.parametrize("arguments", RADIALS)
+def test_radials(capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...]) -> None:
+    validate("radial", printed(capsys, "radial", *arguments))
+
+
+@pytest.fixture(scope="module")
+def stressed() -> Any:
+    """Answers of every kind: right, wrong, refused, failed."""
+
+    def refuse(_: Any) -> Outcome:
+        raise InputError("N must be at most 10: got 11")
+
+    wrong = Method[Any]("wrong", lambda _: Outcome(mp.mpf(3), mp.mpf(0), "bound"))
+    failing = Method[Any]("failing", lambda _: Outcome(mp.nan, mp.mpf(0), "estimate"))
+    methods = (*RADIAL.methods[:3], wrong, failing, Method[Any]("none", refuse))
+    return stress([Family(RADIAL.name, RADIAL.problems[:2], methods, RADIAL.references)])
+
+
+def test_stress_matches_its_schema(stressed: Any) -> None:
+    validate("stress", stressed)
+    assert [c["honest"] for c in stressed["cases"][:6]] == [True, True, True, False, False, True]
+
+
+def test_work_precision_matches_its_schema() -> None:
+    validate("work_precision", work_precision(1e-9))
+
+
 def _paths(value: Any, schema_: dict[str, Any], root: dict[str, Any]) -> list[tuple[Any, ...]]:
     """Paths of all required fields of a document, by its schema; of a list the first element."""
     schema_ = root["$defs"][schema_["$ref"].split("/")[-1]] if "$ref" in schema_ else schema_
@@ -162,16 +216,20 @@ def _mutants(name: str, document: Any) -> list[Any]:
 
 
 def test_mutated_documents_are_rejected(
-    capsys: pytest.CaptureFixture[str], documents: dict[str, Any]
+    capsys: pytest.CaptureFixture[str], documents: dict[str, Any], stressed: Any
 ) -> None:
     whole = {
         "table": printed(capsys, *CROSSING),
         "derive": printed(capsys, "derive", "jitter"),
         "check": documents["contradicted"],
+        "variance": printed(capsys, "variance", *VARIANCES[3]),
+        "radial": printed(capsys, "radial", *RADIALS[0]),
+        "stress": stressed,
+        "work_precision": work_precision(1e-9),
     }
     for name, document in whole.items():
         mutants = _mutants(name, document)
-        assert len(mutants) > 20
+        assert len(mutants) > 2 * len(schema(name)["required"])
         for mutant in mutants:
             if mutant.get("plan", {}).get("frequencies") == {"surprise": 1}:
                 continue  # an object it is
