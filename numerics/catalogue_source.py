@@ -1,4 +1,4 @@
-"""A catalogue sampler as a source of realisations."""
+"""A catalogue sampler as a source of realisations, and the source that words name."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,8 +8,11 @@ from numpy.typing import NDArray
 
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler, family_of, parse_sampler
+from .child_processes import Limits
+from .child_source import open_child_source
+from .command_source import open_command_source
 from .generators import generate
-from .sources import Source, load_source
+from .sources import Source, is_file_word, load_source
 from .streams import stream
 
 CHUNK = 64
@@ -69,17 +72,35 @@ class CatalogueSource:
         return generate(self.sampler, counts, len(replicates), rng)
 
 
-def open_source(words: list[str], dim: int) -> Source | CatalogueSource:
+def open_source(
+    words: list[str], dim: int, limits: Limits | None = None
+) -> Source | CatalogueSource:
     """The source that words of the command line name; catalogue names win.
+
+    Parameters
+    ----------
+    words : list of str
+        A catalogue sampler; ``cmd:`` and a command; ``module:callable`` or ``path.py:callable``,
+        drawn in a child process; or point files.
+    dim : int
+        At least 1.
+    limits : Limits, optional
+        What a command or a callable may use.
 
     Raises
     ------
     InputError
         If the words name nothing usable, or a catalogue entry without points.
     """
-    if len(words) == 1 and family_of(words[0]) is not None:
+    if dim < 1:
+        raise InputError(f"the dimension must be at least 1: got {dim}")
+    if len(words) != 1 or is_file_word(words[0]):
+        return load_source(words, dim)
+    if family_of(words[0]) is not None:
         sampler = parse_sampler(words[0], dim)
         if sampler.counts_at is None:
             raise InputError(f"a catalogue source must have points to draw: got {words[0]!r}")
         return CatalogueSource(sampler)
-    return load_source(words, dim)
+    if words[0].startswith("cmd:"):
+        return open_command_source(words[0], dim, limits)
+    return open_child_source(words[0], dim, limits)

@@ -35,7 +35,7 @@ def mean_over_cell(covariogram: Covariogram, teeth: Sequence[Tooth]) -> Ball:
     if nearest2 >= 1:
         return flint.arb(0)
     axes = _axes(covariogram, teeth, nearest2)
-    flux = disk_flux if covariogram.dim == 2 else ball_flux
+    flux = (_interval_mean, disk_flux, ball_flux)[covariogram.dim - 1]
     try:
         flint.ctx.prec = asked + _FIRST_SPARE
         radius = at_zero(covariogram) * flint.arb(2) ** -asked
@@ -51,6 +51,16 @@ def mean_over_cell(covariogram: Covariogram, teeth: Sequence[Tooth]) -> Ball:
     finally:
         flint.ctx.prec = asked
     return +mean
+
+
+def _interval_mean(axes: tuple[tuple[Piece, ...], ...]) -> Ball:
+    """∫ g(x) (1 - x) over 0 <= x <= 1: J of an interval is a polynomial."""
+    total = flint.fmpq(0)
+    for piece in axes[0]:
+        for x, sign in ((piece.start, -1), (min(piece.end, flint.fmpq(1)), 1)):
+            constant, slope = x - x**2 / 2, x**2 / 2 - x**3 / 3
+            total += sign * (piece.constant * constant + piece.slope * slope)
+    return flint.arb(total)
 
 
 def _missing_bits(error: Ball, radius: Ball) -> int:

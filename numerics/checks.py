@@ -6,105 +6,61 @@ executed is written down as a plan, which replays to the same document.
 """
 
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
-from ..theory.claims import RateClaim, SamplerClaim
+from ..theory.claims import SamplerClaim
 from ..theory.errors import InputError
-from ..theory.samplers import Sampler
 from .catalogue_source import chunk_size
-from .designs import (
-    Design,
-    all_frequencies,
-    all_integrands,
-    candidates,
-    design,
-    fault_of_count,
-    ladder,
-    rate_probes,
-)
-from .drift import DriftTest, drift_test
-from .faults import BIAS_LEVEL, Fault, find_faults
-from .integrands.protocol import Integrand
-from .measurements import Measurement, grow, kept_points
-from .moments import Interval, log_error, variance_interval
-from .probes import Frequency
-from .slopes import RatePoint
-from .sources import SamplerFault
-from .tails import is_resolved, is_seen
-from .variances import ExactVariance
-from .verdicts import (
-    FALSE_ALARM,
-    LOOKS,
-    Comparison,
-    Outcome,
-    budget_needed,
-    comparisons,
-    exponent_margin,
-    overall_outcome,
-    spectrum_predictions,
-    variance_predictions,
-)
+from .child_processes import Limits, OutOfTime, unanswered
+from .child_source import ChildSource, global_state_fault
+from .command_source import CommandSource, seed_fault
+from .designs import all_frequencies, all_integrands, design, fault_of_count, ladder
+from .fault_kinds import Fault, fault_of
+from .faults import BIAS_LEVEL, COINCIDENCE_LEVEL, find_faults
+from .judgements import FIRST, State, judgements, matching
+from .measurements import Measurement, grow, homogenise, kept_amplitudes, kept_points
+from .realisations import SamplerFault
+from .verdicts import FALSE_ALARM, LOOKS, Outcome, spectrum_predictions, variance_predictions
 
-_FIRST, _MOST = 128, 1 << 14  # replicates in the first round, and at most
+_MOST = 1 << 14  # replicates at most
+_SHIFTS = 1024  # random shifts of a frozen point set
 _CELLS = (4, 5, 6, 7, 8)  # waves of the density along an axis that the search for faults adds
-_NOISE = 1e-27  # relative mean squared error that is but rounding
 _FAULT_SHARE = 0.5  # of the false alarms, allowed to the search for faults
+_CALL = 60.0  # seconds for one realisation, or the whole budget if that is less
+_SILENT = 1 / 3  # of the budget: a sampler that is silent for less is not blamed
+_SHORTEST = 0.5  # seconds of silence
 
-Spectrum = dict[Frequency, float]
-Variances = dict[str, ExactVariance]
-Step = tuple[int, int, int]
 
+class Step(NamedTuple):
+    """What was executed at one N: realisations measured and asked for, and random shifts."""
 
-@dataclass
-class State:
-    """A check under way: what is asked, predicted and measured so far.
-
-    Parameters
-    ----------
-    design : Design
-    level : float
-        Of each single test.
-    measurements : list of Measurement
-        One per N.
-    spectra : dict
-        Predicted spectra by claim and N.
-    variances : dict
-        Predicted variances by claim and N.
-    """
-
-    design: Design
-    level: float
-    measurements: list[Measurement]
-    spectra: dict[str, dict[int, Spectrum]] = field(default_factory=dict[str, dict[int, Spectrum]])
-    variances: dict[str, dict[int, Variances]] = field(
-        default_factory=dict[str, dict[int, Variances]]
-    )
-    faults: list[Fault] = field(default_factory=list[Fault])
-    judged: set[int] = field(default_factory=set[int])
-    asked: tuple[int, ...] = ()
-    seconds: float = 0.0
-    interrupted: bool = False
+    n: int
+    replicates: int
+    attempted: int
+    shifts: int
 
 
 @dataclass(frozen=True)
-class Judgement:
-    """What was found on one claim.
+class Execution:
+    """What a plan says was executed, to be executed again whatever the budget.
 
     Parameters
     ----------
-    claim : SamplerClaim or RateClaim
-    outcome : {"fails", "holds", "open"}
-    found : tuple of Comparison
-        For a claimed sampler.
-    drift : DriftTest or None
-        For a bare exponent.
+    steps : tuple of Step
+    ended : str
+        As in `State`.
+    call_seconds : float
+        Limit of time of one realisation.
+    unanswered : dict, optional
+        As in `State`.
     """
 
-    claim: SamplerClaim | RateClaim
-    outcome: Outcome
-    found: tuple[Comparison, ...] = ()
-    drift: DriftTest | None = None
+    steps: tuple[Step, ...]
+    ended: str = "decided"
+    call_seconds: float = _CALL
+    unanswered: dict[str, Any] | None = None
 
 
 def run_check(
@@ -115,10 +71,10 @@ def run_check(
     counts: Sequence[int] = (),
     budget: float = 10.0,
     seed: int = 0,
-    steps: Sequence[Step] | None = None,
+    again: Execution | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> State:
-    """Measure until every claim is decided, the budget is spent or the steps are executed.
+    """Measure until every claim is decided, the budget is spent or a plan is executed.
 
     Parameters
     ----------
@@ -132,8 +88,8 @@ def run_check(
     budget : float
         Seconds, a cap.
     seed : int
-    steps : sequence of (n, replicates, attempted), optional
-        Exactly these are executed, whatever the budget: the replay of a plan.
+    again : Execution, optional
+        Exactly this is executed, whatever the budget: the replay of a plan.
     progress : callable
         Told in a line what is being done.
 
@@ -145,25 +101,61 @@ def run_check(
     if not 0 < budget < float("inf"):
         raise InputError(f"--budget must be a positive number of seconds: got {budget}")
     began = time.perf_counter()
-    asked = design(words, dim, claims, integrands, seed)
-    state = State(asked, FALSE_ALARM, [], asked=tuple(counts))
+    limits = Limits(min(_CALL, budget), deadline=began + budget)
+    if again is not None:
+        limits = Limits(again.call_seconds)
+    asked = design(words, dim, claims, integrands, seed, limits)
+    state = State(asked, FALSE_ALARM, [], tuple(counts), budget, limits)
     try:
-        _prepare(state, [n for n, *_ in steps] if steps else counts)
-        if steps:
-            _replay(state, {n: reached for n, *reached in steps})
-        else:
-            _measure(state, began + budget, progress)
-    except SamplerFault as fault:
-        told = fault_of_count(asked.source, fault)
-        state.faults.insert(0, Fault(told.kind, told.detail, told.evidence))
-    except KeyboardInterrupt:
-        state.interrupted = True
-        for m in state.measurements:
-            m.attempted = m.replicates
+        _execute(state, again, progress)
+    finally:
+        if isinstance(asked.source, ChildSource):
+            asked.source.process.close()
     for m in state.measurements:
         _look_for_faults(state, m)
+    if state.faults and state.ended != "interrupted":
+        state.ended = "fault"
     state.seconds = time.perf_counter() - began
     return state
+
+
+def _execute(state: State, again: Execution | None, progress: Callable[[str], None]) -> None:
+    """Measure, or replay, until the end or what comes before it."""
+    try:
+        if again is not None:
+            _replay(state, again)
+        else:
+            _prepare(state, state.asked)
+            _look_for_other_randomness(state)
+            _measure(state, progress)
+    except SamplerFault as fault:
+        state.faults.insert(0, fault_of(fault_of_count(state.design.source, fault)))
+    except OutOfTime as late:
+        _stop(state, "budget")
+        _blame(state, late)
+    except KeyboardInterrupt:
+        _stop(state, "interrupted")
+
+
+def _stop(state: State, why: str) -> None:
+    """End with what was measured."""
+    state.ended = why
+    for m in state.measurements:
+        m.attempted = m.replicates
+
+
+def _blame(state: State, late: OutOfTime) -> None:
+    """A sampler that has never answered hangs, if the whole budget is the time of one call.
+
+    While it is loaded nothing is blamed on it: to import a library may take long.
+    """
+    n, waited, budget = late.evidence.get("n"), late.evidence["seconds"], state.budget
+    is_silent = not late.evidence["drawn"] and waited >= max(_SILENT * budget, _SHORTEST)
+    if n is None or budget > _CALL or not is_silent:
+        state.unanswered = {"n": n, "seconds": waited}
+        return
+    fault = unanswered(late, state.design.source.name, state.limits)
+    state.faults.insert(0, fault_of(fault))
 
 
 def _prepare(state: State, counts: Sequence[int]) -> None:
@@ -172,48 +164,68 @@ def _prepare(state: State, counts: Sequence[int]) -> None:
     integrands = all_integrands(asked)
     for n in ladder(asked, counts):
         state.measurements.append(Measurement(n, all_frequencies(asked, n), integrands))
-    tests = 0
+    tests = len(asked.rate_claims)
     for claim in asked.claims:
-        if isinstance(claim, SamplerClaim):
-            state.spectra[claim.text], state.variances[claim.text] = {}, {}
-            for m in state.measurements:
-                spectrum = spectrum_predictions(claim.sampler, m.n, m.frequencies)
-                if spectrum is not None:
-                    state.spectra[claim.text][m.n] = spectrum
-                    exact = variance_predictions(claim.sampler, m.n, m.integrands)
-                    state.variances[claim.text][m.n] = exact
-                    tests += len(spectrum) + len(exact)
-        else:
-            tests += 1
+        if not isinstance(claim, SamplerClaim):
+            continue
+        spectra = state.spectra[claim.text] = {}
+        variances = state.variances[claim.text] = {}
+        for m in state.measurements:
+            spectrum = spectrum_predictions(claim.sampler, m.n, m.frequencies)
+            if spectrum is not None:
+                spectra[m.n] = spectrum
+                variances[m.n] = variance_predictions(claim.sampler, m.n, m.integrands)
+                tests += len(spectrum) + len(variances[m.n])
     if not asked.claims:  # the true sampler must stay among the matches
         tests = sum(len(m.frequencies) for m in state.measurements)
     state.level = (1 - _FAULT_SHARE) * FALSE_ALARM / (max(tests, 1) * LOOKS)
 
 
+def _look_for_other_randomness(state: State) -> None:
+    """Whether the same realisation comes twice from a callable or a command."""
+    source, n, seed = state.design.source, state.measurements[0].n, state.design.seed
+    found = None
+    if isinstance(source, ChildSource):
+        found = global_state_fault(source, n, seed)
+    elif isinstance(source, CommandSource):
+        found = seed_fault(source, n, seed)
+    state.faults += [] if found is None else [found]
+
+
 def _bias_level(state: State) -> float:
-    """Of one search for faults: there is one at each N."""
-    return min(BIAS_LEVEL, _FAULT_SHARE * FALSE_ALARM / len(state.measurements))
+    """Of one search for faults: there is one at each N, and coincidences have their part."""
+    share = _FAULT_SHARE * FALSE_ALARM / len(state.measurements)
+    return min(BIAS_LEVEL, share - COINCIDENCE_LEVEL)
 
 
-def _replay(state: State, steps: Mapping[int, Sequence[int]]) -> None:
+def _replay(state: State, again: Execution) -> None:
     """Execute a plan's steps: what was measured, then what failed, so that a fault comes last."""
-    for stage in (0, 1):
-        for m in state.measurements:
-            if m.n not in steps:
-                raise InputError(f"a plan must list N that the source honours: got {sorted(steps)}")
-            grow(m, state.design.source, state.design.seed, steps[m.n][stage])
+    has_failed = again.ended == "fault"
+    if again.steps or has_failed:
+        _prepare(state, [step.n for step in again.steps] or state.asked)
+    if has_failed or any(step.attempted for step in again.steps):
+        _look_for_other_randomness(state)
+    steps = {step.n: step for step in again.steps}
+    if steps and not steps.keys() >= {m.n for m in state.measurements}:
+        raise InputError(f"a plan must list N that the source honours: got {sorted(steps)}")
+    source, seed = state.design.source, state.design.seed
+    executed = [(m, steps[m.n]) for m in state.measurements if steps]
+    for m, step in executed:
+        grow(m, source, seed, step.replicates)
+        homogenise(m, seed, step.shifts)
+    for m, step in executed:
+        grow(m, source, seed, step.attempted)
+    state.ended, state.unanswered = again.ended, again.unanswered
 
 
-def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> None:
+def _measure(state: State, progress: Callable[[str], None]) -> None:
     """Rounds of doubling size, until all is decided, exhausted or late."""
-    target = _FIRST
+    target = FIRST
     while target <= _MOST:
         for m in state.measurements:
-            while m.replicates < _reachable(state, m, target):
-                wanted = m.replicates + chunk_size(m.n)
-                grow(m, state.design.source, state.design.seed, wanted, deadline)
-                if time.perf_counter() > deadline:
-                    return
+            if not _grow_to(state, m, target):
+                state.ended = "budget"
+                return
             _look_for_faults(state, m)
         if state.faults:
             return
@@ -223,6 +235,18 @@ def _measure(state: State, deadline: float, progress: Callable[[str], None]) -> 
         if exhausted or _is_decided(state, outcomes):
             return
         target *= 2
+
+
+def _grow_to(state: State, m: Measurement, target: int) -> bool:
+    """Measure until the target, or as far as there is something; False if it is late."""
+    source, seed, deadline = state.design.source, state.design.seed, state.limits.deadline
+    while m.replicates < _reachable(state, m, target):
+        grow(m, source, seed, m.replicates + chunk_size(m.n), deadline)
+        if time.perf_counter() > deadline:
+            return False
+    if _reachable(state, m, _MOST) == 1:
+        homogenise(m, seed, _SHIFTS, deadline)
+    return time.perf_counter() <= deadline
 
 
 def _reachable(state: State, m: Measurement, target: int) -> int:
@@ -242,100 +266,13 @@ def _look_for_faults(state: State, m: Measurement) -> None:
     if not m.kept or m.n in state.judged:
         return
     state.judged.add(m.n)
-    known = {(f.kind, f.detail) for f in state.faults}
-    found = find_faults(kept_points(m), _CELLS, _bias_level(state))
-    state.faults += [f for f in found if (f.kind, f.detail) not in known]
+    found = find_faults(kept_points(m), _CELLS, _bias_level(state), kept_amplitudes(m))
+    m.distinct = found.distinct
+    known = {_what(f) for f in state.faults}  # one witness is enough, at the smallest N
+    news = (Fault(f.kind, f.detail, {"n": m.n, **f.evidence}) for f in found.faults)
+    state.faults += [f for f in news if _what(f) not in known]
 
 
-def judgements(state: State) -> list[Judgement]:
-    """What the measurements say on each claim."""
-    return [
-        _sampler_judgement(state, c) if isinstance(c, SamplerClaim) else _rate_judgement(state, c)
-        for c in state.design.claims
-    ]
-
-
-def _sampler_judgement(state: State, claim: SamplerClaim) -> Judgement:
-    found: list[Comparison] = []
-    for m in state.measurements:
-        if m.replicates >= 2 and m.n in state.spectra.get(claim.text, {}):
-            spectrum = state.spectra[claim.text][m.n]
-            found += comparisons(m, spectrum, state.variances[claim.text][m.n], state.level)
-    return Judgement(claim, overall_outcome(found), tuple(found))
-
-
-def _rate_judgement(state: State, claim: RateClaim) -> Judgement:
-    """The exponent, tested on the whole ladder with its drift allowance."""
-    points = rate_points(state, rate_probes(claim, state.design.dim), state.level, asymptotic=True)
-    if len(points) < 3:
-        return Judgement(claim, "open")
-    drift = drift_test(
-        points,
-        float(claim.exponent),
-        float(claim.log_power),
-        state.level,
-        margin=exponent_margin(state.design.dim),
-    )
-    outcomes: dict[str, Outcome] = {"contradicted": "fails", "consistent": "holds"}
-    return Judgement(claim, outcomes.get(drift.verdict, "open"), drift=drift)
-
-
-def rate_points(
-    state: State, integrands: Sequence[Integrand], level: float, asymptotic: bool = False
-) -> list[RatePoint]:
-    """Summed variances of integrands on different supports, per N, with cautious errors.
-
-    A random shift makes the errors on different supports uncorrelated, so that their variances
-    add; their intervals are added end by end.
-
-    Parameters
-    ----------
-    asymptotic : bool
-        Leave out what says nothing on N → ∞: too few points to meet or to resolve a narrow
-        integrand, and variances that are rounding errors.
-    """
-    found: list[RatePoint] = []
-    for m in state.measurements:
-        if m.replicates < _FIRST or (asymptotic and not _is_telling(m, integrands)):
-            continue
-        parts = [variance_interval(m.shifted[f.name], level) for f in integrands]
-        total = Interval(*(sum(p[i] for p in parts) for i in range(3)))
-        if total.low > 0 and total.high < float("inf"):
-            found.append(RatePoint(m.n, total.estimate, log_error(total, level)))
-    return found
-
-
-def _is_telling(m: Measurement, integrands: Sequence[Integrand]) -> bool:
-    return all(
-        is_resolved(f, m.n)
-        and is_seen(f, m.n, m.replicates)
-        and m.shifted[f.name].mse > _NOISE * (float(f.total(17)) + float(f.mean(17)) ** 2)
-        for f in integrands
-    )
-
-
-def matching(state: State) -> list[tuple[Sampler, Outcome]]:
-    """How each catalogue sampler's exact spectrum compares with the measured one."""
-    found: list[tuple[Sampler, Outcome]] = []
-    for sampler in candidates(state.design.dim):
-        seen: list[Comparison] = []
-        for m in state.measurements:
-            spectrum = spectrum_predictions(sampler, m.n, m.frequencies) if m.frequencies else None
-            if spectrum is not None and m.replicates >= 2:
-                seen += comparisons(m, spectrum, {}, state.level)
-        if seen:
-            found.append((sampler, overall_outcome(seen)))
-    return found
-
-
-def seconds_needed(state: State, found: Sequence[Judgement]) -> float | None:
-    """Budget that would decide what is open; None if nothing is, or if no budget would."""
-    held = state.design.source.realisations
-    exhausted = held is not None and all(m.replicates == held[m.n] for m in state.measurements)
-    if all(j.outcome != "open" for j in found) or exhausted or state.interrupted or state.faults:
-        return None
-    open_ones = [c for j in found if j.outcome == "open" for c in j.found]
-    seconds = max(state.seconds, 1.0)
-    if not open_ones:
-        return 4 * seconds
-    return budget_needed(open_ones, seconds, {m.n: m.replicates for m in state.measurements})
+def _what(fault: Fault) -> tuple[str, tuple[int, ...]]:
+    """The kind of a fault, and the axes on which it shows."""
+    return fault.kind, tuple(fault.evidence.get("axes", ()))

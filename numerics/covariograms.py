@@ -26,7 +26,7 @@ class Covariogram:
     Parameters
     ----------
     dim : int
-        2 or 3 (the interval is a product, and needs no covariogram).
+        1, 2 or 3.
     flat : int
         Number of axes projected along, at least 0 and less than ``dim``.
     """
@@ -52,6 +52,8 @@ def value(covariogram: Covariogram, y: Ball) -> Ball:
     z = y.sqrt()
     rest = flint.arb.max(1 - y, flint.arb(0))
     match covariogram.dim, covariogram.flat:
+        case 1, 0:
+            return 1 - z
         case 2, 0:
             root = rest.sqrt()
             return (flint.arb.atan2(root, z) - z * root) / 2
@@ -70,7 +72,7 @@ def value(covariogram: Covariogram, y: Ball) -> Ball:
 def at_zero(covariogram: Covariogram) -> Ball:
     """J(0) = ∫_0^1 (1 - σ²)^{(d-1)/2} σ^k dσ."""
     quarter_pi, third = flint.arb.pi() / 4, flint.fmpq(1, 3)
-    known = {(2, 0): quarter_pi, (2, 1): third}
+    known = {(1, 0): flint.fmpq(1), (2, 0): quarter_pi, (2, 1): third}
     known |= {(3, 0): 2 * third, (3, 1): flint.fmpq(1, 4), (3, 2): flint.fmpq(2, 15)}
     return flint.arb(known[covariogram.dim, covariogram.flat])
 
@@ -79,6 +81,8 @@ def slope(covariogram: Covariogram, y: Ball) -> Ball:
     """dJ/dy at y = z², 0 < y < 1."""
     z, rest = y.sqrt(), 1 - y
     match covariogram.dim, covariogram.flat:
+        case 1, 0:
+            return -1 / (2 * z)
         case 2, 0:
             return -rest.sqrt() / (2 * z)
         case 3, 0:

@@ -8,6 +8,7 @@ the ladder of N as a whole.
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil
 from pathlib import Path
 from typing import Any, cast
@@ -18,6 +19,7 @@ from ..theory.samplers import Sampler, parse_sampler
 from ..theory.symbolic import Expr, Integer, sympy
 from ..theory.tables import default_samplers
 from .catalogue_source import CatalogueSource, counts_of, open_source
+from .child_processes import Limits, OutOfTime
 from .integrands.grammar import parse_integrand
 from .integrands.protocol import Integrand
 from .probes import (
@@ -30,11 +32,13 @@ from .probes import (
     probe,
     strata_of_claim,
 )
-from .sources import SamplerFault, Source
+from .realisations import SamplerFault
+from .sources import Source
 from .tails import resolution
 
 _RATE_LADDER = (16, 64, 256, 1024, 4096)
 _MOST_POINTS = 1 << 22
+_MOST_COUNTS = 100  # each has its share of the false alarms
 _MOST_AXES = 16  # 2^d strata are drawn up to here
 _LARGEST_RATE = 1 << 16  # the ladder of a bare exponent is not moved beyond
 
@@ -74,9 +78,19 @@ class Design:
 
 
 def design(
-    words: Sequence[str], dim: int, claims: Sequence[str], integrands: Sequence[str], seed: int
+    words: Sequence[str],
+    dim: int,
+    claims: Sequence[str],
+    integrands: Sequence[str],
+    seed: int,
+    limits: Limits | None = None,
 ) -> Design:
     """Parse everything that a check is asked for.
+
+    Parameters
+    ----------
+    limits : Limits, optional
+        What a command or a callable may use; whether it is usable shows when it is first asked.
 
     Raises
     ------
@@ -93,7 +107,8 @@ def design(
         if isinstance(claim, RateClaim):
             rate_probes(claim, dim)
     wanted = tuple(parse_integrand(t, dim) for t in integrands)
-    return Design(tuple(words), open_source(list(words), dim), dim, parsed, wanted, seed)
+    source = open_source(list(words), dim, limits)
+    return Design(tuple(words), source, dim, parsed, wanted, seed)
 
 
 def claim_texts(word: str) -> list[str]:
@@ -171,6 +186,7 @@ def all_integrands(found: Design) -> tuple[Integrand, ...]:
     return tuple(named.values())
 
 
+@lru_cache(maxsize=16)
 def candidates(dim: int) -> tuple[Sampler, ...]:
     """Catalogue samplers with points in a dimension, for the search of what agrees."""
     names = [n for n in default_samplers(Integer(dim)) if not n.startswith("isotropic")]
@@ -188,10 +204,13 @@ def ladder(found: Design, asked: Sequence[int]) -> tuple[int, ...]:
     Raises
     ------
     InputError
-        If an N is out of range, or no N suits both the source and a claimed sampler.
-    SamplerFault
+        If an N is out of range, they are too many, or no N suits both the source and a claimed
+        sampler.
+    SamplerFault, OutOfTime
         If the source fails on a trial call.
     """
+    if len(set(asked)) > _MOST_COUNTS:
+        raise InputError(f"at most {_MOST_COUNTS} N can be asked for: got {len(set(asked))}")
     for n in asked:
         if not 2 <= n <= _MOST_POINTS:
             raise InputError(f"--n must be in 2..{_MOST_POINTS}: got {n}")
@@ -272,6 +291,8 @@ def fault_of_count(source: Source | CatalogueSource, fault: SamplerFault) -> Sam
             source.realise(n, 0, range(1))
         except SamplerFault:
             continue
+        except OutOfTime:
+            break
         detail = f"{fault.detail}; the nearest N found that it honours is {n}"
         return SamplerFault(fault.kind, detail, {**fault.evidence, "nearest": n})
     return fault

@@ -80,10 +80,6 @@ def envelope(
     InputError
         If the sampler has no counts at N, the orthant would hold more than four million
         frequencies, or the spectrum has power where the profile says it is zero.
-
-    Notes
-    -----
-    Doubles: at the lowest frequencies N·P_S has an absolute error of about 1e-16 N.
     """
     if sampler.kernel is None or sampler.counts_at is None:
         raise InputError(f"an envelope needs a sampler with a spectrum: got {sampler.name}")
@@ -103,7 +99,7 @@ def envelope(
         over, under = float(scaled[inside].mean()), float(expected[inside].mean())
         if under > 0:
             found.append((lower, over / under))
-        elif abs(over) > 1e-9:
+        elif over != 0:
             raise InputError(f"the spectrum must vanish where the profile does: got {over:.3g}")
     radii, ratios = zip(*found, strict=True)
     return Envelope(min(ratios), max(ratios), counts["N"], radii, ratios)

@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from ..theory.claims import RateClaim
-from .checks import Judgement, State
 from .integrands.protocol import Integrand
+from .judgements import Judgement, State
+from .measurements import Measurement
 from .probes import integrand_supports
 
 
@@ -44,11 +45,32 @@ def _counts(state: State) -> Iterator[tuple[str, str]]:
         for text, by_n in state.spectra.items():
             if m.n not in by_n:
                 yield f"{text} at N = {m.n}", "the claimed sampler has no such number of points"
-        if m.replicates == 1:
-            yield f"spectrum at N = {m.n}", "one realisation has one |F|²: no expectation"
+    yield from _single(state.measurements)
+    yield from _late(state)
     held = state.design.source.realisations
     if held is not None and any(m.replicates == held[m.n] for m in state.measurements):
         yield "more realisations", "the files hold no more, and no budget gives more"
+
+
+def _late(state: State) -> Iterator[tuple[str, str]]:
+    """What the sampler was asked for when the budget was spent."""
+    if state.unanswered is None:
+        return
+    n = state.unanswered["n"]
+    what = "all measurements" if n is None else f"more realisations of N = {n}"
+    asked = "was being loaded" if n is None else "had been asked and had not answered"
+    yield what, f"the sampler {asked} when the budget was spent"
+
+
+def _single(measurements: Sequence[Measurement]) -> Iterator[tuple[str, str]]:
+    """What one realisation cannot tell, whether there is no other or all are the same."""
+    if single := [m.n for m in measurements if m.replicates == 1 or m.is_frozen]:
+        why = "one realisation has one |F|²: no expectation, and no claim is judged on it"
+        yield f"spectrum at N = {', '.join(map(str, single))}", why
+    if frozen := [m for m in measurements if m.is_frozen]:
+        shifts = ", ".join(str(m.shifts) for m in frozen)
+        why = f"homogenised: the one point set is moved by random shifts, {shifts} of them"
+        yield f"variance over realisations at N = {', '.join(str(m.n) for m in frozen)}", why
 
 
 def _variances(state: State) -> Iterator[tuple[str, str]]:
@@ -59,7 +81,7 @@ def _variances(state: State) -> Iterator[tuple[str, str]]:
     for text, by_n in state.variances.items():
         for f in integrands:
             if by_n and not any(f.name in values for values in by_n.values()):
-                why = "no product, under a sampler with combs or in more than three dimensions"
+                why = "no product, in more than three dimensions or under combs of too many teeth"
                 yield f"exact variance of {f.name} under {text}", why
 
 

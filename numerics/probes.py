@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..theory.samplers import Sampler
-from .integrands.bernoulli import Bernoulli
+from .integrands.bernoulli import bernoulli
+from .integrands.separable import Separable
 
 JUMP, KINK, SMOOTH = 1, 2, 6
 """Degrees of the Bernoulli polynomials that probe the worst class, one between, the best class."""
 
 _MOST_PAIRS = 45
-_WAVE_POINTS = 1 << 18  # waves of all frequencies are held for so many points at once
+_WAVE_VALUES = 1 << 20  # of all waves held at once: 16 MiB
 _FEW = 3  # dimensions up to which integrands probe every support that frequencies do
 
 Support = tuple[int, ...]
@@ -89,9 +90,9 @@ def strata_of_claim(sampler: Sampler, n: int) -> tuple[int, ...]:
     return tuple(sorted({c for c in sampler.counts_at(n).values() if c > 1}))
 
 
-def probe(dim: int, degree: int, support: Support) -> Bernoulli:
+def probe(dim: int, degree: int, support: Support) -> Separable:
     """The Bernoulli integrand of a degree with all its power on one support."""
-    return Bernoulli(dim, degree, support)
+    return bernoulli(dim, degree, support)
 
 
 def amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDArray[np.complex128]:
@@ -107,7 +108,9 @@ def amplitudes(points: NDArray[np.float64], wanted: Sequence[Frequency]) -> NDAr
     array of shape (len(wanted), R)
     """
     realisations, n = points.shape[:2]
-    step, size = max(1, _WAVE_POINTS // n), min(n, _WAVE_POINTS)
+    waves = {(axis, k) for m in wanted for axis, k in enumerate(m) if k}
+    most = max(1, _WAVE_VALUES // max(1, len(waves)))
+    step, size = max(1, most // n), min(n, most)
     result = np.zeros((len(wanted), realisations), dtype=np.complex128)
     for start in range(0, realisations, step):
         for first in range(0, n, size):

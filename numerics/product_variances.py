@@ -19,14 +19,16 @@ from math import lcm
 from typing import TypeAlias
 
 from ..theory.errors import InputError
+from ..theory.kernels import Atom, Kernel
 from ..theory.kernels import Factor as KernelFactor
-from ..theory.kernels import Kernel
 from ..theory.layouts import Layout
 from ..theory.samplers import Sampler
+from ..theory.shapes import SINC2
 from .balls import Ball, certified, flint
 from .coefficients import element_rational
 from .integrands.energies import Energy, factor_energy, unit_energy
 from .integrands.protocol import Factor, Part
+from .shape_sums import shape_sum
 
 Members: TypeAlias = tuple[tuple[tuple[Factor, int], ...], ...]
 """For each group of axes: the functions of one coordinate on its axes, and on how many each."""
@@ -126,13 +128,18 @@ def _weighted(factor: Factor, weight: KernelFactor, counts: Mapping[str, int]) -
     """Energy of a function of one coordinate, weighted by a kernel's factor, which is 1 at 0."""
     beyond = flint.arb(0)
     for coefficient, atom in weight.terms:
-        if atom.zero:
-            continue
-        combs = [int(element_rational(c, counts).p) for c in atom.combs]
-        sincs = [int(element_rational(c, counts).p) for c in atom.sincs]
-        if len(sincs) > 1:
-            raise InputError(f"a factor of a kernel must have at most one sinc²: got {sincs}")
-        energy = factor.power_sum(lcm(*combs), sincs[0] if sincs else None)
-        beyond += element_rational(coefficient, counts) * energy
+        if not atom.zero:
+            beyond += element_rational(coefficient, counts) * _atom_energy(factor, atom, counts)
     mean = factor.mean()
     return Energy(mean * mean, beyond)
+
+
+def _atom_energy(factor: Factor, atom: Atom, counts: Mapping[str, int]) -> Ball:
+    """Σ over m ≠ 0 of |f^(m)|² against an atom without [m = 0]."""
+    combs = [int(element_rational(c, counts).p) for c in atom.combs]
+    shapes = [(shape, int(element_rational(c, counts).p)) for shape, c in atom.shapes]
+    if len(shapes) > 1 or any(shape != SINC2 for shape, _ in shapes):
+        if combs:
+            raise InputError(f"a comb must stand beside one sinc² or nothing: got {shapes}")
+        return shape_sum(factor, shapes)
+    return factor.power_sum(lcm(*combs), shapes[0][1] if shapes else None)

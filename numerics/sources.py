@@ -1,11 +1,8 @@
 """Where raw points come from: a callable, a scipy QMC engine, or point files.
 
-`load_source` reads the words that name a source; every source then draws realisations of N points
-by its `realise`, which checks each one in the order type, shape, count, not finite, outside.
-Unusable words are an `InputError`. A sampler that misbehaves is a `SamplerFault`: not an unusable
-input but a finding about the sampler.
-
-Evidence counts realisations and rows from 0, as arrays do, and axes from 1, as regions do.
+`load_source` reads the words that name a source in this process; every source then draws
+realisations of N points by its `realise`. Unusable words are an `InputError`. A sampler that
+misbehaves is a `SamplerFault`: not an unusable input but a finding about the sampler.
 """
 
 import contextlib
@@ -24,36 +21,14 @@ from numpy.typing import NDArray
 from ..theory.errors import InputError
 from .imports import RAISED, load_attribute, one_line
 from .pointfiles import POINT_SUFFIXES, read_points
+from .realisations import SamplerFault, checked, nearby_powers, not_honoured
 from .streams import stream
 
-Kind = Literal["callable", "engine", "file"]
-
-
-class SamplerFault(Exception):
-    """The sampler itself misbehaves.
-
-    Parameters
-    ----------
-    kind : str
-        ``exception``, ``type``, ``shape``, ``count``, ``not finite`` or ``outside``.
-    detail : str
-        One line that gives the rule and then what was got.
-    evidence : dict
-        JSON-able values from which the fault can be seen again.
-    """
-
-    def __init__(self, kind: str, detail: str, evidence: dict[str, Any]) -> None:
-        super().__init__(kind, detail, evidence)
-        self.kind = kind
-        self.detail = detail
-        self.evidence = evidence
-
-    def __str__(self) -> str:
-        return f"{self.kind}: {self.detail}"
+Kind = Literal["callable", "engine", "file", "command"]
 
 
 class Source(Protocol):
-    """What the three kinds of source have in common."""
+    """What all sources have in common."""
 
     @property
     def name(self) -> str: ...
@@ -76,7 +51,7 @@ class Source(Protocol):
         ...
 
     def realise(self, n: int, seed: int, replicates: range) -> NDArray[np.float64]:
-        """Raw realisations, shape (len(replicates), n, dim)."""
+        """Raw realisations, shape (len(replicates), n, dim); only the first before a deadline."""
         ...
 
 
@@ -101,10 +76,11 @@ class CallableSource:
         refusal = self._refusal(n)
         if refusal is None:
             return n
-        for power in _nearby_powers(n, self.dim):
+        tried = nearby_powers(n, self.dim)
+        for power in tried:
             if self._refusal(power) is None:
                 return power
-        raise refusal
+        raise not_honoured(self.name, n, tried, refusal) from refusal
 
     def _refusal(self, n: int) -> SamplerFault | None:
         """The fault, if a trial call raises ValueError; any other exception is raised."""
@@ -123,7 +99,7 @@ class CallableSource:
         for index, replicate in enumerate(replicates):
             with _sampler_call(self.name, n, replicate):
                 raw = self.function(n, self.dim, stream(seed, n, replicate))
-            points[index] = _checked(raw, n, self.dim, replicate)
+            points[index] = checked(raw, n, self.dim, replicate)
         return points
 
 
@@ -153,7 +129,7 @@ class EngineSource:
             rng = {keyword: stream(seed, n, replicate)}
             with _sampler_call(self.name, n, replicate):
                 raw = self.engine(d=self.dim, **rng).random(n)
-            points[index] = _checked(raw, n, self.dim, replicate)
+            points[index] = checked(raw, n, self.dim, replicate)
         return points
 
 
@@ -190,7 +166,7 @@ class FileSource:
                 f"a replicate of a point file must be one of its {len(stored)} realisations "
                 f"of {n} points, counted from 0: got {beyond[0]}"
             )
-        chosen = [_checked(stored[r], n, self.dim, r) for r in replicates]
+        chosen = [checked(stored[r], n, self.dim, r) for r in replicates]
         return np.array(chosen).reshape(len(replicates), n, self.dim)
 
 
@@ -219,10 +195,8 @@ def load_source(words: list[str], dim: int) -> Source:
         raise InputError(f"the dimension must be at least 1: got {dim}")
     if not words:
         raise InputError("a source must be named: got no word")
-    if all(_is_file_word(word) for word in words):
+    if all(is_file_word(word) for word in words):
         return _load_files(words, dim)
-    if any(word.startswith("cmd:") for word in words):
-        raise InputError(f"commands are not supported yet as sources: got '{' '.join(words)}'")
     if len(words) > 1:
         raise InputError(f"several words must all be point files: got '{' '.join(words)}'")
     return _sampler_source(words[0], dim)
@@ -252,7 +226,8 @@ def _sampler_source(word: str, dim: int) -> CallableSource | EngineSource:
     return CallableSource(word, target, dim)
 
 
-def _is_file_word(word: str) -> bool:
+def is_file_word(word: str) -> bool:
+    """Whether a word names a point file, by its suffix."""
     return not word.startswith(("py:", "cmd:")) and Path(word).suffix.lower() in POINT_SUFFIXES
 
 
@@ -319,72 +294,3 @@ def _point_count(answer: Any, n: int) -> int:
         detail = f"admissible({n}) must give a positive whole number: got {str(answer)[:80]}"
         raise SamplerFault("type", detail, {"n": n, "got": str(answer)[:80]})
     return nearest
-
-
-def _nearby_powers(n: int, dim: int) -> list[int]:
-    """Squares, cubes, ... dim-th powers and powers of two near n, nearest first."""
-    found: set[int] = {1 << (n.bit_length() - 1), 1 << n.bit_length()}
-    for power in range(2, dim + 1):
-        root = 1
-        while (root + 1) ** power <= n:
-            root += 1
-        found |= {root**power, (root + 1) ** power}
-    # One point tells nothing, and a far power of a high dimension would fill the memory.
-    near = (c for c in found if c > 1 and c != n and c <= max(16 * n, 65536))
-    return sorted(near, key=lambda c: (abs(c - n), c))
-
-
-def _checked(raw: object, n: int, dim: int, replicate: int) -> NDArray[np.float64]:
-    """One realisation as float64, or the first fault: type, shape, count, not finite, outside."""
-    points = _real_array(raw, replicate)
-    if points.ndim != 2 or points.shape[1] != dim:
-        raise SamplerFault(
-            "shape",
-            f"a realisation must have shape ({n}, {dim}): got {points.shape}",
-            {"realisation": replicate, "asked": [n, dim], "got": list(points.shape)},
-        )
-    if len(points) != n:
-        raise SamplerFault(
-            "count",
-            f"a realisation must have the {n} points asked for: got {len(points)}",
-            {"realisation": replicate, "asked": n, "got": len(points)},
-        )
-    for kind, rule, bad in (
-        ("not finite", "be finite", ~np.isfinite(points)),
-        ("outside", "lie in [0, 1)", (points < 0) | (points >= 1)),
-    ):
-        if bad.any():
-            row, axis = (int(i) for i in np.argwhere(bad)[0])
-            value = float(points[row, axis])
-            where = f"axis {axis + 1}, row {row} of realisation {replicate}"
-            evidence = {"realisation": replicate, "row": row, "axis": axis + 1}
-            shown = value if np.isfinite(value) else str(value)  # JSON has no nan
-            evidence |= {"value": shown, "values": int(bad.sum())}
-            raise SamplerFault(kind, f"coordinates must {rule}: got {value!r} on {where}", evidence)
-    return points
-
-
-def _real_array(raw: object, replicate: int) -> NDArray[np.float64]:
-    """Array of real numbers. Masks and weights would be lost in silence: both are refused."""
-    got = type(raw).__name__
-    try:
-        if isinstance(raw, np.ma.MaskedArray) or _is_weighted(raw):
-            raise TypeError
-        array = np.asarray(raw)
-        got += f" of {array.dtype}"
-        if array.dtype.kind not in "fiu":
-            raise TypeError
-    except Exception as error:  # a foreign array type may raise anything on its conversion
-        raise SamplerFault(
-            "type",
-            f"a realisation must be an array of real numbers, without weights: got {got}",
-            {"realisation": replicate, "got": got},
-        ) from error
-    return array.astype(np.float64)
-
-
-def _is_weighted(raw: object) -> bool:
-    """A tuple (points, weights)."""
-    return isinstance(raw, tuple) and any(
-        getattr(part, "ndim", 0) == 2 for part in cast("Any", raw)
-    )

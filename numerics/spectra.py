@@ -17,6 +17,7 @@ from ..theory.layouts import Layout
 from ..theory.samplers import Sampler
 from ..theory.symbolic import FracElement, sympy
 from .integrands.protocol import Ints, Mpf, mp
+from .shape_values import shape_value
 from .spectrum_arrays import scaled_power_array
 
 Counts = Mapping[str, int | Mpf]
@@ -120,8 +121,8 @@ def _factor_value(factor: Factor, counts: Counts, m: int) -> tuple[Mpf, Mpf]:
         if any(mp.mpf(m) % element_value(c, counts) != 0 for c in atom.combs):
             continue
         value = element_value(coefficient, counts)
-        for count in atom.sincs:
-            value *= mp.sincpi(m / element_value(count, counts)) ** 2
+        for shape, count in atom.shapes:
+            value *= shape_value(shape, m / element_value(count, counts))
         total, size = total + value, size + abs(value)
     return total, size
 

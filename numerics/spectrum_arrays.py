@@ -1,27 +1,21 @@
-"""Expected power spectra on arrays of frequencies: sinc² and its deficit 1 − sinc², side by side.
+"""Expected power spectra on arrays of frequencies, from the forms that do not cancel.
 
-At a whole frequency m with t = πm/n and r the residue of m of least size modulo n,
-
-    sinc²(m/n) = (sin(πr/n)/t)²,      1 − sinc²(m/n) = Σ_{k≥1} (-1)^(k+1) 2^(2k+1) t^2k/(2k+2)!,
-
-so that both have a relative error of a few units in the last place, the series at t < 1 and the
-difference beyond. ``spectrum_forms`` tells how the spectrum comes out of them.
+``spectrum_forms`` writes N·P_S as interpolations in variables g(m/n) and [n divides m]. Here every
+variable and its complement to 1 are evaluated side by side, each with a relative error of a few
+units in the last place (``shape_arrays``), and put together.
 """
 
 from collections.abc import Mapping, Sequence
-from math import factorial, pi
 from typing import TypeAlias
 
 import numpy as np
 
 from ..theory.kernels import Kernel
 from .integrands.protocol import Floats, Ints
+from .shape_arrays import shape_arrays
 from .spectrum_forms import Interpolation, Multilinear, SpectrumForm, Variable, spectrum_form
 
 _ROWS = 1 << 14  # handled at once, so that the arrays in work stay in the cache
-
-# With t < 1 the terms left out are below 3e-19 of the sum.
-_DEFICIT = [(-1) ** (k + 1) * 2.0 ** (2 * k + 1) / factorial(2 * k + 2) for k in range(1, 12)]
 
 _Value: TypeAlias = Floats | float
 _Values: TypeAlias = Mapping[Variable, tuple[Floats, Floats]]
@@ -72,30 +66,11 @@ def scaled_power_array(
 
 def _with_complement(variable: Variable, m: Ints) -> tuple[Floats, Floats]:
     """The variable and 1 − variable at frequencies from 1 to 2^62."""
+    if not variable.comb:
+        return shape_arrays(variable.shape, m, variable.count)
     n, largest = variable.count, int(m.max(initial=1))
-    if variable.comb:
-        teeth = (m % n == 0).astype(np.float64) if n <= largest else np.zeros(len(m))
-        return teeth, 1 - teeth
-    step = pi / n
-    t = m.astype(np.float64) * step
-    # m + n//2 stays below 2^63: where n is not below 2 · largest <= 2^63, m is its own residue.
-    residue = m - (m + n // 2) // n * n if n < 2 * largest else m
-    sinc2 = (np.sin(residue * step) / t) ** 2
-    deficit = 1 - sinc2
-    low = np.flatnonzero(t < 1)
-    if low.size:
-        deficit[low] = _low_deficit(t[low])
-    return sinc2, deficit
-
-
-def _low_deficit(t: Floats) -> Floats:
-    """1 − (sin(t)/t)² for 0 < t < 1."""
-    square = t * t
-    value = np.full(len(t), _DEFICIT[-1])
-    for coefficient in reversed(_DEFICIT[:-1]):
-        value *= square
-        value += coefficient
-    return value * square
+    teeth = (m % n == 0).astype(np.float64) if n <= largest else np.zeros(len(m))
+    return teeth, 1 - teeth
 
 
 def _form_value(form: SpectrumForm, values: _Values) -> _Value:

@@ -10,6 +10,7 @@ from ..theory.kernels import Factor
 from ..theory.samplers import Sampler
 from ..theory.symbolic import FracElement
 from .balls import Ball, flint
+from .shape_values import shape_ball
 from .spectra import support_counts
 from .spectrum_forms import element_fraction
 
@@ -65,10 +66,7 @@ def _factor_ball(factor: Factor, counts: Mapping[str, int], m: int) -> Ball:
         for comb in atom.combs:
             if m % int(element_fraction(comb, counts)):
                 value = flint.arb(0)
-        for count in atom.sincs:
-            n = int(element_fraction(count, counts))  # at any precision the count is exact
-            # sin(π m/n) only depends on m modulo 2n: the sine keeps its digits at any frequency.
-            sine = flint.arb.sin_pi_fmpq(flint.fmpq(m % (2 * n), n))
-            value *= (sine * n / (flint.arb.pi() * m)) ** 2
+        for shape, count in atom.shapes:  # at any precision the count is exact
+            value *= shape_ball(shape, m, int(element_fraction(count, counts)))
         total += value
     return total

@@ -1,8 +1,9 @@
 """Exact expected power spectra on one support as multilinear forms that do not cancel.
 
-On one support N·P_S is a polynomial p, of degree one in each of the variables A = sinc²(m_i/n) and
-T = [n divides m_i]. At low frequencies all A are close to 1 and the plain sum loses every digit: of
-correlated multi-jitter only N·P_S ~ N^-2 is left. With the deficit x = 1 − A,
+On one support N·P_S is a polynomial p, of degree one in each of the variables A = sinc²(m_i/n), or
+another shape g(m_i/n), and T = [n divides m_i]. At low frequencies all A are close to 1 and the
+plain sum loses every digit: of correlated multi-jitter only N·P_S ~ N^-2 is left. With the deficit
+x = 1 − A,
 
     p = A p|_{A=1} + x p|_{A=0},
 
@@ -28,6 +29,7 @@ from math import prod
 from typing import TypeAlias
 
 from ..theory.kernels import Atom, Factor, Kernel
+from ..theory.shapes import SINC2, Shape
 from ..theory.symbolic import FracElement
 
 _JOINT = 2  # coordinates whose vertices are interpolated together
@@ -35,7 +37,7 @@ _JOINT = 2  # coordinates whose vertices are interpolated together
 
 @dataclass(frozen=True)
 class Variable:
-    """sinc²(m_axis/count), or [count divides m_axis] for a comb.
+    """shape(m_axis/count), or [count divides m_axis] for a comb.
 
     Parameters
     ----------
@@ -44,13 +46,16 @@ class Variable:
     count : int
     comb : bool
     occurrence : int
-        Tells the variables of a power of sinc² apart.
+        Tells the variables of a power of a shape apart.
+    shape : Shape
+        sinc² unless told otherwise.
     """
 
     axis: int
     count: int
     comb: bool
     occurrence: int = 1
+    shape: Shape = SINC2
 
 
 @dataclass(frozen=True)
@@ -146,9 +151,11 @@ def _linear(factor: Factor, axis: int, counts: Mapping[str, int]) -> _Linear:
 
 def _variables(atom: Atom, axis: int, counts: Mapping[str, int]) -> frozenset[Variable]:
     combs = {Variable(axis, int(element_fraction(c, counts)), True) for c in atom.combs}
-    powers = Counter(int(element_fraction(c, counts)) for c in atom.sincs)
-    sincs = {Variable(axis, n, False, k + 1) for n, top in powers.items() for k in range(top)}
-    return frozenset(combs | sincs)
+    powers = Counter((int(element_fraction(c, counts)), shape) for shape, c in atom.shapes)
+    shapes = {
+        Variable(axis, n, False, k + 1, g) for (n, g), top in powers.items() for k in range(top)
+    }
+    return frozenset(combs | shapes)
 
 
 def _term_by_term(terms: _Terms) -> tuple[float, list[Product]]:
@@ -196,7 +203,7 @@ def _multilinear(terms: _Terms) -> Multilinear:
 
 def _kept_from_one(variable: Variable, ones: frozenset[Variable]) -> bool:
     """On the teeth of its own comb a sinc² is zero."""
-    return not variable.comb and any(
+    return (not variable.comb and variable.shape.vanishes_on_integers) and any(
         v.comb and v.axis == variable.axis and v.count % variable.count == 0 for v in ones
     )
 
@@ -204,7 +211,7 @@ def _kept_from_one(variable: Variable, ones: frozenset[Variable]) -> bool:
 def _all_of(factors: Iterable[_Linear]) -> list[Variable]:
     """The variables of the factors, combs first."""
     found = {v for f in factors for _, variables in f for v in variables}
-    return sorted(found, key=lambda v: (not v.comb, v.axis, v.count, v.occurrence))
+    return sorted(found, key=lambda v: (not v.comb, v.axis, v.count, v.occurrence, str(v.shape)))
 
 
 def _named(polynomial: Multilinear) -> set[Variable]:

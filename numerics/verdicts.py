@@ -17,11 +17,11 @@ import numpy as np
 
 from ..theory.errors import InputError
 from ..theory.samplers import Sampler
-from .integrands.protocol import Integrand, mp
+from .integrands.protocol import Integrand
 from .measurements import Measurement, power_interval
 from .moments import Interval, variance_interval
 from .probes import Frequency
-from .spectra import power_array, scaled_power
+from .spectra import power_array
 from .tails import is_seen
 from .variances import ExactVariance, exact_variance
 
@@ -53,8 +53,8 @@ ENOUGH = 1024
 """Replicates after which the intervals of normal errors lie within the margin."""
 
 _ROUNDING = 1e-20  # |F|² and squared errors below this are rounding errors of zero
+_SPECTRUM_ERROR = 1e-13  # relative, of `power_array`
 _BOX = 250_000
-_DOUBLE = 1 << 16  # beyond, N·P_S of correlated multi-jitter loses more than 1e-13 in doubles
 
 Outcome = Literal["fails", "holds", "open"]
 
@@ -127,11 +127,8 @@ def spectrum_predictions(
     counts = sampler.counts_at(n) if sampler.counts_at else None
     if counts is None or counts["N"] != n:
         return None
-    if n > _DOUBLE:
-        with mp.workdps(20):
-            return {m: max(0.0, float(scaled_power(sampler, counts, m))) / n for m in wanted}
     values = power_array(sampler, counts, np.array(wanted, dtype=np.int64))
-    return {m: max(0.0, float(v)) for m, v in zip(wanted, values, strict=True)}
+    return {m: float(v) for m, v in zip(wanted, values, strict=True)}
 
 
 def variance_predictions(
@@ -162,8 +159,9 @@ def comparisons(
     for m, predicted in spectrum.items():
         measured = power_interval(measurement, m, level)
         narrow = power_interval(measurement, m, EQUIVALENCE_LEVEL)
-        outcome = compare(measured, predicted, 1e-13 / n, count, narrow=narrow)
-        found.append(Comparison("spectrum", m, n, measured, predicted, 1e-13 / n, outcome))
+        bound = _SPECTRUM_ERROR * predicted
+        outcome = compare(measured, predicted, bound, count, narrow=narrow)
+        found.append(Comparison("spectrum", m, n, measured, predicted, bound, outcome))
     for f in measurement.integrands:
         if f.name not in variances:
             continue

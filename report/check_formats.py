@@ -89,12 +89,13 @@ def _set(formula: str) -> str:
 def _csv(document: Document) -> str:
     """The measured variances; the ends of an interval have columns of their own."""
     intervals = ("variance", "raw_variance", "raw_mse", "bias")
-    head = ["integrand", "region", "n", "replicates"]
+    head = ["integrand", "region", "n", "replicates", "realisations"]
     head += [f"{k}{end}" for k in intervals for end in ("", "_low", "_high")]
     regions = {r["integrand"]: r["region"] for r in document["rates"]}
     rows: list[list[str]] = []
     for p in document["points"]:
-        cells: list[object] = [p["integrand"], regions.get(p["integrand"]), p["n"], p["replicates"]]
+        cells: list[object] = [p["integrand"], regions.get(p["integrand"])]
+        cells += [p[k] for k in ("n", "replicates", "realisations")]
         for k in intervals:
             interval: Document = p.get(k) or {}
             cells += [interval.get(end) for end in ("estimate", "low", "high")]
@@ -115,6 +116,7 @@ def _words(document: Document) -> Iterator[str]:
     )
     for f in document["faults"]:
         yield f"  fault, {f['kind']}: {f['detail']}"
+        yield f"    remedy: {f['remedy']}"
     for c in document["claims"]:
         yield from _claim(c, document["level"])
     if not document["claims"] or any("~" not in c["claim"] for c in document["claims"]):

@@ -87,6 +87,7 @@ def _parser() -> _Parser:
     _add_check(commands)
     _add_variance(commands)
     _add_radial(commands)
+    _add_recommend(commands)
     _add_stress(commands)
     return parser
 
@@ -146,6 +147,7 @@ def _add_check(commands: Commands) -> None:
     p.add_argument("--budget", type=float, default=10.0, metavar="SECONDS", help="a cap")
     p.add_argument("--seed", type=int, metavar="S", help="0 unless given")
     p.add_argument("--plan", metavar="FILE", help="replay what a document's check executed")
+    p.add_argument("--report", metavar="DIR", help="write the page of the check there")
     _add_format(p)
 
 
@@ -187,6 +189,13 @@ def _add_stress(commands: Commands) -> None:
     _add_format(p)
 
 
+def _add_recommend(commands: Commands) -> None:
+    p = _command(commands, "recommend", _recommend, "which layouts reach the rates wanted")
+    p.add_argument("wanted", nargs="+", metavar="CLAIM", help='"axis/best ~ 3", repeatable')
+    p.add_argument("--dim", required=True, type=int, metavar="D")
+    _add_format(p)
+
+
 def _table(a: argparse.Namespace) -> tuple[str, int]:
     from .table_formats import render
 
@@ -212,6 +221,7 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     from ..numerics import check
     from .check_formats import render
 
+    folder = None if a.report is None else _report_folder(a.report)
     dim = 1 if a.dim is None else a.dim  # a plan names its own
     document = check(
         a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed or 0, a.plan, _progress
@@ -220,7 +230,25 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     code = (
         INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)
     )
+    if folder is not None:
+        from .check_pages import write_report
+
+        written = write_report(document, folder)
+        print(f"written to {folder}: {', '.join(p.name for p in written)}", file=sys.stderr)
     return render(document, a.format), code
+
+
+def _report_folder(name: str) -> Path:
+    from .work_precision_figures import require_matplotlib
+
+    require_matplotlib()
+    return _folder(name)
+
+
+def _recommend(a: argparse.Namespace) -> tuple[str, int]:
+    from .recommendation_formats import render
+
+    return render(a.wanted, a.dim, a.format), DONE
 
 
 def _radial(a: argparse.Namespace) -> tuple[str, int]:

@@ -53,7 +53,7 @@ def require_matplotlib() -> None:
         If matplotlib is not installed.
     """
     if importlib.util.find_spec("matplotlib") is None:
-        raise InputError('a diagram needs matplotlib (pip install "specrate[figures]"): got none')
+        raise InputError('figures need matplotlib (pip install "specrate[figures]"): got none')
 
 
 def draw(document: Document, paths: Sequence[Path]) -> None:

@@ -87,6 +87,24 @@ def samplers(draw: st.DrawFn) -> Sampler:
 
 
 @st.composite
+def shaped_samplers(draw: st.DrawFn, dim: int) -> Sampler:
+    """A sampler whose spectrum has other shapes than sinc²: degree 1, β in (0, 2], or 4."""
+    families = ["box-dpp", "cloaked", *(["difference-jitter"] if dim == 1 else [])]
+    name = draw(st.sampled_from(families))
+    if name == "box-dpp" and draw(st.booleans()):
+        name += ":" + draw(strata_texts(dim))
+    if name == "cloaked":
+        name += f":{draw(st.fractions(Fraction(1, 4), 2, max_denominator=6))}"
+    return parse_sampler(name, dim)
+
+
+@st.composite
+def every_sampler(draw: st.DrawFn) -> Sampler:
+    """Any sampler with a kernel, of the paper's kinds or with other shapes."""
+    return draw(st.one_of(samplers(), dims.flatmap(shaped_samplers)))
+
+
+@st.composite
 def supports(draw: st.DrawFn, sampler: Sampler) -> tuple[int, ...]:
     """1-based coordinates of a support; half of them within one block."""
     layout = sampler.layout

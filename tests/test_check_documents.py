@@ -4,12 +4,12 @@ import json
 from pathlib import Path
 
 import pytest
-from specrate.numerics.check_documents import check, predicted_order, read_plan
-from specrate.numerics.integrands.grammar import parse_integrand
+from specrate.numerics import sampler_processes
+from specrate.numerics.check_documents import check, read_plan
+from specrate.numerics.child_processes import Limits, Overdue
 from specrate.numerics.pointfiles import write_text
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
-from specrate.theory.samplers import parse_sampler
 
 SAMPLERS = str(Path(__file__).parent / "designs" / "samplers.py")
 
@@ -43,30 +43,76 @@ def text_of(found):
 
 
 CASES = (
-    ("jitter", 2, ["jitter"], ["disk"]),
-    ("random", 2, ["latin-hypercube", "axis/best ~ 1"], []),
-    ("multi-jitter", 2, ["overall/disk ~ 3/2"], []),
-    ("scipy.stats.qmc:Sobol", 3, [], []),
-    (f"{SAMPLERS}:half_jitter", 2, ["jitter"], []),
-    (f"{SAMPLERS}:centred_rooks", 2, ["n-rooks"], []),
-    (f"{SAMPLERS}:frozen", 2, [], []),
-    (f"{SAMPLERS}:raising", 2, ["random"], []),
-    (f"{SAMPLERS}:raising_late", 2, ["random"], []),
-    (f"{SAMPLERS}:fewer", 2, ["random"], []),
-    (f"{SAMPLERS}:slow", 2, ["random"], []),
+    ("jitter", 2, ["jitter"], ["disk"], 0.1),
+    ("random", 2, ["latin-hypercube", "axis/best ~ 1"], [], 0.1),
+    ("multi-jitter", 2, ["overall/disk ~ 3/2"], [], 0.1),
+    ("scipy.stats.qmc:Sobol", 3, [], [], 3.0),
+    (f"{SAMPLERS}:half_jitter", 2, ["jitter"], [], 20.0),
+    (f"{SAMPLERS}:centred_rooks", 2, ["n-rooks"], [], 20.0),
+    (f"{SAMPLERS}:frozen", 2, [], [], 20.0),
+    (f"{SAMPLERS}:raising", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:raising_late", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:fewer", 2, ["latin-hypercube"], [], 20.0),
+    (f"{SAMPLERS}:segfaulting", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:leaving", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:enormous", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:refusing", 2, ["random"], [], 20.0),
+    (f"{SAMPLERS}:hanging", 2, ["random"], [], 2.5),
+    (f"{SAMPLERS}:hanging_from_100", 2, ["random"], [], 1.5),
+    (f"{SAMPLERS}:slow", 2, ["random"], [], 1.5),
+    (f"{SAMPLERS}:jitter", 2, ["jitter"], [], 1e-3),
 )
 
 
-@pytest.mark.parametrize(("word", "dim", "claims", "integrands"), CASES)
-def test_replay_gives_the_same_document(tmp_path, word, dim, claims, integrands):
-    found = check(word, dim, claims, integrands, budget=0.1, seed=7)
+@pytest.mark.parametrize(("word", "dim", "claims", "integrands", "budget"), CASES)
+def test_replay_gives_the_same_document(tmp_path, word, dim, claims, integrands, budget):
+    found = check(word, dim, claims, integrands, budget=budget, seed=7)
     assert set(found) >= FIELDS
     path = tmp_path / "plan.json"
     path.write_text(json.dumps(found, allow_nan=False))
     again = check([], dim, plan=path)
     assert text_of(again) == text_of(found)
+
+
+def test_a_plan_alone_replays_too(tmp_path):
+    found = check("jitter", 2, ["jitter"], ["disk"], budget=0.1, seed=7)
+    path = tmp_path / "plan.json"
     path.write_text(json.dumps(found["plan"]))
-    assert text_of(check(word, dim, plan=path)) == text_of(found)
+    assert text_of(check("jitter", 2, plan=path)) == text_of(found)
+
+
+@pytest.mark.parametrize("answers", [0, 1, 3, 4, 5, 7, 100])
+def test_wherever_the_budget_ends_it_is_replayed(tmp_path, monkeypatch, answers):
+    """One answer when the sampler is loaded, one for each of 3 N, one drawn twice, then draws."""
+    whole = sampler_processes._heard
+
+    def heard(process):
+        nonlocal answers
+        answers -= 1
+        if answers < 0:
+            process.limits = Limits(deadline=0.0)
+            raise Overdue
+        return whole(process)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(sampler_processes, "_heard", heard)
+        found = check(f"{SAMPLERS}:jitter", 2, ["jitter"], budget=60, seed=7)
+    assert found["verdict"] == "inconclusive"
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(found, allow_nan=False))
+    assert text_of(check([], 2, plan=path)) == text_of(found)
+
+
+def test_what_a_budget_cut_short_is_replayed(tmp_path):
+    """A sampler that is asked nothing on replay could not say more."""
+    found = check(f"{SAMPLERS}:hanging_from_100", 2, ["random"], counts=[16], budget=20, seed=7)
+    plan = found["plan"] | {"ended": "budget", "unanswered": {"n": 100, "seconds": 1.0}}
+    plan["ladder"], plan["asked"] = [], [100]
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(plan))
+    again = check([], 2, plan=path)
+    assert (again["verdict"], again["faults"], again["n_range"]) == ("inconclusive", [], None)
+    assert again["plan"] == plan | {"frequencies": {}}
 
 
 def test_a_late_fault_is_replayed_at_its_place(tmp_path):
@@ -85,7 +131,17 @@ def test_files_replay_too(tmp_path):
     found = check(str(tmp_path / "points.txt"), 2, ["random"], budget=1)
     (tmp_path / "plan.json").write_text(json.dumps(found))
     assert text_of(check([], 2, plan=tmp_path / "plan.json")) == text_of(found)
-    assert found["plan"]["ladder"] == [{"n": 16, "replicates": 70, "attempted": 70}]
+    step = {"n": 16, "replicates": 70, "attempted": 70, "shifts": 70}
+    assert found["plan"]["ladder"] == [step]
+
+
+def test_shifts_of_a_frozen_file_replay(tmp_path):
+    write_text(tmp_path / "points.txt", stream(95).random((1, 16, 2)))
+    found = check(str(tmp_path / "points.txt"), 2, ["random"], budget=20)
+    (tmp_path / "plan.json").write_text(json.dumps(found))
+    assert text_of(check([], 2, plan=tmp_path / "plan.json")) == text_of(found)
+    step = {"n": 16, "replicates": 1, "attempted": 1, "shifts": 1024}
+    assert found["plan"]["ladder"] == [step]
 
 
 def test_seeds_matter():
@@ -112,21 +168,6 @@ def test_a_contradiction_has_a_witness_that_can_be_read():
     assert claim["failing"]["tests"] <= claim["failing"]["of"]
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "exponent"),
-    [
-        ("jitter", "disk", "3/2"),
-        ("latin-hypercube", "gaussian", "1"),
-        ("latin-hypercube", "bernoulli:k=6", "3"),
-        ("multi-jitter", "bernoulli:k=1,axes=(1,2)", "3/2"),
-        ("random", "box:side=0.3", "1"),
-    ],
-)
-def test_predicted_orders(name, text, exponent):
-    order = predicted_order(parse_sampler(name, 2), parse_integrand(text, 2))
-    assert str(order.exponent) == exponent
-
-
 @pytest.mark.parametrize("text", ["", "{", "[]", "3", '{"plan": 3}', '{"sources": []}'])
 def test_what_is_no_plan(tmp_path, text):
     path = tmp_path / "plan.json"
@@ -142,5 +183,9 @@ def test_a_plan_of_another_version(tmp_path):
     path.write_text(json.dumps(plan | {"specrate": "0.0.0"}))
     with pytest.raises(InputError, match="must come from this version"):
         check([], 2, plan=path)
+    for row in ({"n": 16}, 3):
+        path.write_text(json.dumps(plan | {"ladder": [row]}))
+        with pytest.raises(InputError, match="steps that lack one of n, replicates, attempted, sh"):
+            check([], 2, plan=path)
     with pytest.raises(InputError, match="must be readable"):
         check([], 2, plan=tmp_path / "absent.json")

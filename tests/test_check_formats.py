@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 from latex import check_structure, compile_where_possible
 from specrate.numerics import check
+from specrate.numerics.pointfiles import write_text
+from specrate.numerics.streams import stream
 from specrate.report.check_formats import frequency_text, render, short
 
 Document = dict[str, Any]
@@ -115,6 +117,19 @@ def test_csv_has_numbers_in_columns(contradicted: Document) -> None:
         assert float(row["variance_low"]) == point["variance"]["low"]
         assert float(row["bias_high"]) == point["bias"]["high"]
         assert row["exact"] == (point["exact"] or "")
+        assert int(row["realisations"]) == point["realisations"] == point["replicates"]
+
+
+def test_one_realisation_is_printed_without_an_interval(tmp_path: Path) -> None:
+    path = tmp_path / "points.txt"
+    write_text(path, stream(96).random((1, 16, 2)))
+    found = check(str(path), 2, ["random"], budget=20)
+    text = render(found, "terminal")
+    assert "[0, oo]" in text
+    assert "moved by random shifts, 1024 of them" in text
+    row = next(csv.DictReader(io.StringIO(render(found, "csv"))))
+    assert (row["replicates"], row["realisations"], row["bias"]) == ("1024", "1", "")
+    check_structure(render(found, "latex"))
 
 
 def test_json_is_the_document(contradicted: Document) -> None:
@@ -139,10 +154,12 @@ def test_faults_come_second() -> None:
         "exponent_margin": 0.25,
     }
     document = {**points, **rest, **numbers, "interrupted": True, "budget_needed_seconds": None}
-    document["faults"] = [{"kind": "piled points", "detail": "why", "evidence": {}}]
-    first, second, *_ = render(document, "terminal").splitlines()
+    fault = {"kind": "piled points", "detail": "why", "evidence": {}, "remedy": "mend it"}
+    document["faults"] = [fault]
+    first, second, third, *_ = render(document, "terminal").splitlines()
     assert first == "INVALID: x.py:f in 2D, no N measured, 0.1 s, interrupted"
     assert second == "  fault, piled points: why"
+    assert third == "    remedy: mend it"
 
 
 def test_latex_is_well_formed_and_compiles(

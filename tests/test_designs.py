@@ -14,7 +14,7 @@ from specrate.numerics.designs import (
     ladder,
     rate_probes,
 )
-from specrate.numerics.sources import SamplerFault
+from specrate.numerics.realisations import SamplerFault
 from specrate.theory.claims import parse_claim
 from specrate.theory.errors import InputError
 
@@ -108,7 +108,7 @@ def test_probes_of_a_rate(text, dim, names):
         ("axis/p=5/2 ~ 1", r"p - s is 1, 3, 5"),
         ("generic/p=26.5 ~ 1", r"p - s is 1, 3, 5"),
         ("axis/p=100 ~ 1", r"p - s is 1, 3, 5"),
-        ("overall/half-space ~ 1", "an integrand must be one of"),
+        ("overall/product:k=13 ~ 1", "1 <= k <= 12"),
     ],
 )
 def test_rates_that_cannot_be_probed(text, message):

@@ -1,7 +1,9 @@
 """Low-frequency expansions: the terms kept are those of the exact spectrum."""
 
+from fractions import Fraction
 from itertools import combinations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.integrands.protocol import mp
@@ -11,21 +13,26 @@ from specrate.theory.expansions import FULL, Powers, expand
 from specrate.theory.regions import region_of_support, regions
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.signs import symbol
-from specrate.theory.symbolic import Integer, sympy
-from strategies import samplers, supports
+from specrate.theory.symbolic import Integer, Rational, sympy
+from strategies import every_sampler, supports
 
 d = symbol("d")
 
 
 def monomial_symmetric(partition, squares):
     """M_λ of the squares: the sum over distinct monomials with the exponents λ."""
-    if partition == FULL:
-        return sympy.prod(squares)
+    if partition and partition[0] < 0:
+        return sympy.prod([x ** -exact(partition[0]) for x in squares])
     if not partition:
         return Integer(1)
     if len(partition) == 1:
-        return sum(x ** partition[0] for x in squares)
-    return sum(x * y for x, y in combinations(squares, 2))
+        return sum(x ** exact(partition[0]) for x in squares)
+    assert partition[0] == partition[1]
+    return sum((x * y) ** exact(partition[0]) for x, y in combinations(squares, 2))
+
+
+def exact(part):
+    return Rational(part.numerator, part.denominator)
 
 
 def value_of_series(series, layout, m, n):
@@ -43,7 +50,7 @@ def value_of_series(series, layout, m, n):
     return total
 
 
-@given(samplers(), st.data())
+@given(every_sampler(), st.data())
 def test_series_is_the_spectrum_at_low_frequencies(sampler, data):
     """At fixed m as N → ∞ their ratio tends to 1, where no count stays fixed and combs are out."""
     layout = sampler.layout
@@ -81,6 +88,22 @@ def test_angular_means_are_moments_of_the_sphere(w, data):
     assert sympy.simplify(powers.angular_mean((Integer(w),)) - terms * gaussian / radius) == 0
 
 
+@given(st.integers(1, 6), st.fractions(Fraction(1, 8), 2, max_denominator=8), st.data())
+def test_angular_means_of_fractional_powers(w, part, data):
+    """Mean of Σ |x_i|^2k/|x|^2k, Σ |x_i x_j|^2k/|x|^4k and ∏, E |x|^p = 2^(p/2) Γ(p/2 + 1/2)/√π."""
+    partition = data.draw(st.sampled_from([(part,), (-part,), *([(part, part)] if w > 1 else [])]))
+    size = w if partition[0] < 0 else len(partition)
+    gamma, degree = sympy.gamma, 2 * exact(part) * size
+    gaussian = (
+        2 ** exact(part) * gamma(exact(part) + Rational(1, 2)) / sympy.sqrt(sympy.pi)
+    ) ** size
+    radius = 2 ** (degree / 2) * gamma((w + degree) / 2) / gamma(Rational(w, 2))
+    expected = sympy.binomial(w, size) * gaussian / radius
+    powers = Powers((partition,))
+    assert powers.degree((Integer(w),)) == degree
+    assert float(powers.angular_mean((Integer(w),))) == pytest.approx(float(expected), rel=1e-12)
+
+
 def test_angular_means_keep_a_symbolic_size():
     w = symbol("w")
     assert Powers(((1,),)).angular_mean((w,)) == 1
@@ -93,6 +116,11 @@ def test_powers_are_written():
     assert Powers(((1, 1), (2,))).text(("x", "y")) == "sum_x m_i^2 m_j^2 sum_y m_i^4"
     assert Powers((FULL,)).text(("x",)) == "prod_x m_i^2"
     assert Powers(((), ())).text(("x", "y")) == "1"
+    half = Fraction(1, 2)
+    assert Powers(((half,),)).text(("x",)) == "sum_x |m_i|"
+    assert Powers(((half / 2, half / 2),)).text(("x",)) == "sum_x |m_i|^(1/2) |m_j|^(1/2)"
+    assert Powers(((3 * half,), (-half,))).text(("x", "y")) == "sum_x |m_i|^3 prod_y |m_i|"
+    assert Powers(((2 * half,),)).text(("x",)) == "sum_x m_i^2"
 
 
 def test_multi_jitter_2d_series_has_the_exact_coefficients():

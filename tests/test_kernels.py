@@ -1,5 +1,6 @@
 """Kernels against exhaustive enumeration of tiny samplers, and the algebra they are made of."""
 
+from fractions import Fraction
 from itertools import product
 
 import exhaustive
@@ -9,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.integrands.protocol import mp
 from specrate.numerics.spectra import element_value, power_array, scaled_power
+from specrate.theory.errors import InputError
 from specrate.theory.kernels import Alphabet, Atom, Kernel
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.samplers.uncorrelated_jitter import padded
+from specrate.theory.shapes import SINC2, TENT, stretched
 from specrate.theory.strata import Strata
 from specrate.theory.symbolic import Integer
 from strategies import frequencies
@@ -168,6 +171,48 @@ def test_square_rectangle_is_the_orthogonal_array(m):
     )
 
 
+@pytest.mark.parametrize("counts", [(1,), (2,), (7,), (2, 3), (3, 3), (2, 2, 2)])
+def test_box_dpp_counts_the_frequencies_that_a_moved_box_shares(counts):
+    """1 − |Λ ∩ (Λ + m)|/N by sets of frequencies."""
+    box = set(product(*map(range, counts)))
+    dim, names = len(counts), [f"n{i + 1}" for i in range(len(counts))]
+    sampler = parse_sampler("box-dpp:" + "x".join(map(str, counts)), dim)
+    held = dict(zip(names, counts, strict=True)) if len(set(counts)) > 1 else {"n": counts[0]}
+    for m in some_frequencies(dim):
+        shared = box & {tuple(a + b for a, b in zip(k, m, strict=True)) for k in box}
+        expected = 1 - len(shared) / len(box)
+        found = scaled_power(sampler, {"N": len(box), **held}, m)
+        assert float(found) == pytest.approx(expected, abs=1e-15), m
+
+
+@pytest.mark.parametrize("n", [3, 4, 5, 8])
+def test_difference_jitter_is_the_sum_over_its_pairs(n):
+    """E exp(−2πix(j + u_j − u_(j−1) − k − u_k + u_(k−1))) by how often each u occurs."""
+    sampler = parse_sampler("difference-jitter", 1)
+    for (m,) in some_frequencies(1):
+        total = 0
+        for j, k in product(range(n), repeat=2):
+            times = np.zeros(n, int)
+            for place, sign in ((j, 1), (j - 1, -1), (k, -1), (k - 1, 1)):
+                times[place % n] += sign
+            total += np.exp(-2j * np.pi * m * (j - k) / n) * np.prod(np.sinc(times * m / n))
+        assert float(scaled_power(sampler, {"N": n}, (m,))) == pytest.approx(
+            total.real / n, abs=1e-12
+        )
+
+
+@pytest.mark.parametrize(("name", "beta"), [("cloaked:1/2", 0.5), ("cloaked:2", 2.0)])
+@pytest.mark.parametrize("dim", [1, 2, 3])
+def test_cloaked_lattices_are_independent_points_of_cells(name, beta, dim):
+    """1 − |φ|², φ the product of the characteristic functions sinc and exp(−|x|^β/2)."""
+    sampler = parse_sampler(name, dim)
+    for m in some_frequencies(dim):
+        x = np.array(m) / 5
+        wave = np.prod(np.sinc(x) * np.exp(-(np.abs(x) ** beta) / 2))
+        found = scaled_power(sampler, {"N": 5**dim, "n": 5}, m)
+        assert float(found) == pytest.approx(1 - wave**2, abs=1e-12), m
+
+
 @pytest.mark.parametrize("case", [c for c in CASES if "regular" not in c])
 def test_spectra_are_one_far_away(case):
     """No spectrum but that of a grid has a tooth that does not fade."""
@@ -254,10 +299,33 @@ def test_a_sinc_on_its_own_teeth_vanishes():
     assert (A.comb(n) * A.sinc2(n)).off_zero().terms == ()
 
 
+def test_what_knows_sinc_alone_is_refused_other_shapes():
+    n = A.count("n")
+    (_, sinc), *_ = A.sinc2(n).terms
+    (_, tent), *_ = A.shape(TENT, n).terms
+    assert sinc.sincs == (n,)
+    with pytest.raises(InputError, match="sinc² and combs alone: got the shape tent"):
+        _ = (sinc * tent).sincs
+
+
+def test_shapes_of_a_kernel():
+    half = stretched(Fraction(1, 2))
+    assert parse_sampler("cloaked:1/2", 3).kernel.shapes == {SINC2, half}
+    assert parse_sampler("box-dpp:2x3", 2).kernel.shapes == {TENT}
+    assert parse_sampler("multi-jitter", 3).kernel.shapes == {SINC2}
+    assert parse_sampler("random", 3).kernel.shapes == frozenset()
+
+
+def test_a_stretched_exponential_stays_on_its_own_teeth():
+    n, half = A.count("n"), stretched(Fraction(1, 2))
+    assert len((A.comb(n) * A.shape(half, n)).off_zero().terms) == 1
+    assert (A.comb(n) * A.shape(TENT, n)).off_zero().terms == ()
+
+
 def test_atoms_multiply():
     n = A.count("n")
-    both = Atom(combs=(n,)) * Atom(combs=(n,), sincs=(n,), zero=True)
-    assert both == Atom(zero=True, combs=(n,), sincs=(n,))
+    both = Atom(combs=(n,)) * Atom(combs=(n,), shapes=((SINC2, n),), zero=True)
+    assert both == Atom(zero=True, combs=(n,), shapes=((SINC2, n),))
 
 
 @pytest.mark.parametrize(("name", "dim"), [("jitter", 2), ("latin-hypercube", 3), ("random", 2)])

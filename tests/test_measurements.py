@@ -1,15 +1,23 @@
 """Measurements at one N: growth in chunks, the same numbers whatever the rounds, deadlines."""
 
-import time
-
 import numpy as np
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource, chunk_size, counts_of, open_source
-from specrate.numerics.measurements import Measurement, grow, kept_points, power_interval, scaled
+from specrate.numerics.catalogue_source import CatalogueSource, open_source
+from specrate.numerics.child_processes import OutOfTime
+from specrate.numerics.measurements import (
+    Measurement,
+    grow,
+    homogenise,
+    kept_amplitudes,
+    kept_points,
+    power_interval,
+    scaled,
+)
 from specrate.numerics.moments import Interval
-from specrate.numerics.probes import probe
-from specrate.numerics.sources import CallableSource, SamplerFault
-from specrate.theory.errors import InputError
+from specrate.numerics.probes import amplitudes, probe
+from specrate.numerics.realisations import SamplerFault
+from specrate.numerics.sources import CallableSource
+from specrate.numerics.streams import stream
 from specrate.theory.samplers import parse_sampler
 
 FREQUENCIES = ((1, 0), (1, 1))
@@ -60,16 +68,76 @@ def test_files_end_where_they_end(tmp_path):
     assert found.replicates == 3
 
 
-def test_a_slow_sampler_is_left_at_the_deadline():
-    def slow(n, dim, rng):
-        time.sleep(0.02)
-        return rng.random((n, dim))
+class Sleeper:
+    """Gives a realisation less than it is asked for, as a child does at its deadline."""
 
-    found, began = fresh(), time.perf_counter()
-    grow(found, of(slow), 0, 1000, deadline=began + 0.1)
-    assert time.perf_counter() - began < 1
-    assert 1 <= found.replicates == found.attempted <= 6
-    assert len(kept_points(found)) == found.replicates
+    realisations = None
+
+    def __init__(self, given):
+        self.given = given
+
+    def realise(self, n, seed, replicates):
+        chunk = len(replicates) - 1 if self.given > 64 else self.given
+        self.given -= chunk
+        return stream(seed, n, replicates.start).random((chunk, n, 2))
+
+
+def test_a_chunk_cut_short_is_followed_by_the_rest():
+    found = fresh()
+    grow(found, Sleeper(70), 0, 70)
+    assert found.replicates == found.attempted == found.shifts == 70
+    assert [len(k) for k in found.kept] == [63, 7]
+    assert found.shifted["bernoulli:k=1"].count == 70
+
+
+def test_no_chunk_is_begun_after_the_deadline():
+    found = fresh()
+    grow(found, CatalogueSource(parse_sampler("random", 2)), 0, 1000, deadline=0.0)
+    assert found.replicates == found.attempted == 64
+
+
+def test_out_of_time_leaves_what_was_measured():
+    class Late(Sleeper):
+        def realise(self, n, seed, replicates):
+            if replicates.start:
+                raise OutOfTime("late", {"seconds": 1.0, "drawn": 64})
+            return super().realise(n, seed, replicates)
+
+    found = fresh()
+    with pytest.raises(OutOfTime):
+        grow(found, Late(64), 0, 1000)
+    assert (found.replicates, found.attempted) == (64, 128)
+
+
+def test_shifts_of_one_point_set_tell_its_own_variance(tmp_path):
+    """Σ |F|² |f^|², by direct sums; 4096 shifts are within 6 standard errors (chance 2e-9)."""
+    points = stream(8).random((3, 2))
+    (tmp_path / "a.txt").write_text("\n".join(f"{x:.17g} {y:.17g}" for x, y in points))
+    found = fresh(3)
+    grow(found, open_source([str(tmp_path / "a.txt")], 2), 0, 128)
+    assert (found.replicates, found.shifts, found.is_frozen) == (1, 1, False)
+    homogenise(found, 0, 4096)
+    found.distinct = 1
+    assert (found.replicates, found.shifts, found.is_frozen) == (1, 4096, True)
+    assert found.raw["bernoulli:k=1"].count == found.power[1, 0].count == 1
+    k = np.arange(1, 200_001)
+    power = abs(np.exp(-2j * np.pi * np.outer(points[:, 0], k)).mean(axis=0)) ** 2
+    exact = 2 * np.sum(power / (2 * np.pi * k) ** 2)  # the rest is below 3e-7
+    measured = found.shifted["bernoulli:k=1"]
+    assert abs(measured.mse - exact) < 6 * measured.mse_error + 3e-7
+
+
+def test_shifts_are_the_same_whatever_the_rounds(tmp_path):
+    (tmp_path / "a.txt").write_text("0.1 0.2\n0.3 0.4\n")
+    source = open_source([str(tmp_path / "a.txt")], 2)
+    once, late = fresh(2), fresh(2)
+    for measurement in (once, late):
+        grow(measurement, source, 4, 1)
+    homogenise(once, 4, 200)
+    for _ in range(4):
+        homogenise(late, 4, 200, deadline=0.0)  # one chunk at a time
+    assert late.shifts == 200
+    assert late.shifted == once.shifted
 
 
 def test_a_fault_leaves_what_was_measured():
@@ -92,23 +160,15 @@ def test_few_realisations_are_kept():
     assert kept_points(found).shape == (128, 16, 2)
 
 
-@pytest.mark.parametrize(
-    ("n", "size"), [(2, 64), (16384, 64), (16385, 32), (1 << 20, 1), (1 << 22, 1)]
-)
-def test_chunks_are_powers_of_two_and_fit_the_memory(n, size):
-    assert chunk_size(n) == size
-
-
-def test_chunks_of_a_catalogue_source_are_whole():
-    source = CatalogueSource(parse_sampler("jitter", 2))
-    assert (source.name, source.dim, source.admissible(50)) == ("jitter", 2, 49)
-    with pytest.raises(InputError, match="in chunks of 64"):
-        source.realise(16, 0, range(1, 2))
-    assert source.realise(16, 0, range(64, 70)).shape == (6, 16, 2)
-    with pytest.raises(InputError, match="must have points to draw: got 'isotropic:2'"):
-        counts_of(parse_sampler("isotropic:2", 2), 16)
-    with pytest.raises(InputError, match="must have points to draw"):
-        open_source(["isotropic:2"], 2)
+def test_amplitudes_of_the_same_realisations_are_kept():
+    found = fresh()
+    grow(found, CatalogueSource(parse_sampler("random", 2)), 0, 256)
+    kept, points = kept_amplitudes(found), kept_points(found)
+    assert tuple(kept) == FREQUENCIES
+    np.testing.assert_allclose(kept[1, 1], amplitudes(points, [(1, 1)])[0], rtol=0, atol=1e-15)
+    none = Measurement(16, (), INTEGRANDS)
+    grow(none, CatalogueSource(parse_sampler("random", 2)), 0, 64)
+    assert kept_amplitudes(none) == {}
 
 
 def test_intervals():

@@ -47,6 +47,28 @@ def test_multi_jitter_of_9_points_exceeds_random_by_a_quarter() -> None:
     assert 9 * power_array(sampler, sampler.counts_at(9), m).max() == pytest.approx(1.234, abs=5e-3)
 
 
+@pytest.mark.parametrize("name", ["box-dpp", "cloaked:1/2", "cloaked:2"])
+def test_plateau_of_other_shapes_is_the_supremum(name: str) -> None:
+    sampler = parse_sampler(name, symbol("d"))
+    assert {plateau(sampler, r) for r in regions(sampler.layout)} == {1}
+    m = np.stack(np.meshgrid(np.arange(80), np.arange(80)), axis=-1).reshape(-1, 2)[1:]
+    flat = parse_sampler(name, 2)
+    assert flat.counts_at is not None
+    top = 256 * power_array(flat, flat.counts_at(256), m).max()
+    assert 0.999 < top <= 1 + 1e-12
+
+
+def test_plateau_of_difference_jitter_is_a_limit() -> None:
+    """N·P_S reaches 1.1661 next to N/2, less than 7/6, and tends to 1 beyond N."""
+    sampler = parse_sampler("difference-jitter", 1)
+    assert {plateau(sampler, r) for r in regions(sampler.layout)} == {1}
+    m = np.arange(1, 400_000)[:, None]
+    scaled = 1000 * power_array(sampler, {"N": 1000}, m)
+    assert scaled.max() == pytest.approx(1.1661457, abs=1e-5)
+    assert m[scaled.argmax(), 0] == pytest.approx(512.5, abs=1)
+    assert scaled[-1000:] == pytest.approx(1, abs=1e-6)
+
+
 def test_comb_alone_has_no_plateau_of_its_own() -> None:
     sampler = parse_sampler("regular", 2)
     assert {plateau(sampler, r) for r in regions(sampler.layout)} == {0}

@@ -24,7 +24,7 @@ from specrate.theory.regions import region_of_support, regions
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.signs import Range, symbol
 from specrate.theory.symbolic import Integer, Rational, sympy
-from strategies import samplers, supports
+from strategies import every_sampler, supports
 
 DIGITS = 50
 TOLERANCE = 2e-3
@@ -63,7 +63,7 @@ def log10_n_for(edge):
     return max(240, int(12 / edge)) if edge else 240
 
 
-@given(samplers(), st.data())
+@given(every_sampler(), st.data())
 def test_exponents_of_profiles_are_those_of_the_spectrum(sampler, data):
     support = data.draw(supports(sampler), label="support")
     profile = profile_of(sampler, region_of_support(sampler.layout, support))
@@ -101,7 +101,7 @@ def local_slope(sampler, direction, x, log10_n):
         return mp.log(twice / once) / mp.log(2)
 
 
-@given(samplers(), st.data())
+@given(every_sampler(), st.data())
 def test_degree_is_the_local_slope_in_frequency(sampler, data):
     """At fixed N the spectrum rises as |m|^b, b the degree of the monomial on top at |m| = N^x."""
     support = data.draw(supports(sampler), label="support")
@@ -187,6 +187,12 @@ def test_a_comb_is_a_step_unless_a_saturated_monomial_covers_it():
         ("uncorrelated-jitter:1+2+3", 6, (2, 3), {(2, Rational(1, 2))}),
         ("uncorrelated-jitter:1+2+3", 6, (4,), {(2, Rational(1, 3))}),
         ("uncorrelated-jitter:1+2+3", 6, (1, 2), {(0, 0)}),
+        ("box-dpp", 1, (1,), {(1, 1)}),
+        ("box-dpp", 3, (1, 2), {(1, Rational(1, 3))}),
+        ("cloaked:1/2", 2, (1, 2), {(Rational(1, 2), Rational(1, 2))}),
+        ("cloaked:3/2", 3, (2,), {(Rational(3, 2), Rational(1, 3))}),
+        ("cloaked:2", 1, (1,), {(2, 1)}),
+        ("difference-jitter", 1, (1,), {(4, 1)}),
         ("regular", 2, (1,), {(sympy.oo, Rational(1, 2))}),
         ("regular", 2, (1, 2), {(sympy.oo, Rational(1, 2))}),
     ],
@@ -210,6 +216,24 @@ def test_coefficients_of_jitter_and_correlated_multi_jitter():
         2: sympy.pi**2 / 3,
         4: sympy.pi**4 / 72,
     }
+
+
+@pytest.mark.parametrize(
+    ("name", "dim", "expected"),
+    [
+        ("box-dpp", 1, 1),
+        ("box-dpp", 2, 4 / sympy.pi),  # mean of |cos| + |sin|
+        ("box-dpp", 3, Rational(3, 2)),
+        ("cloaked:1/2", 1, 1),
+        ("cloaked:2", 2, 1 + sympy.pi**2 / 3),
+        ("difference-jitter", 1, 23 * sympy.pi**4 / 15),
+    ],
+)
+def test_coefficients_of_other_shapes(name, dim, expected):
+    sampler = parse_sampler(name, dim)
+    whole = region_of_support(sampler.layout, tuple(range(1, dim + 1)))
+    (monomial,) = profile_of(sampler, whole)
+    assert sympy.simplify(monomial.coefficient - expected) == 0
 
 
 def test_steps_know_their_first_alias_and_plateau():

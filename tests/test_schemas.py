@@ -16,7 +16,10 @@ from specrate.numerics.work_precision import work_precision
 from specrate.report.cli import main
 from specrate.theory.errors import InputError
 
-COMMANDS = ("table", "derive", "check", "variance", "radial", "stress", "work_precision")
+COMMANDS = (
+    *("table", "derive", "check", "variance", "radial", "stress", "work_precision"),
+    "recommend",
+)
 
 CROSSING = ("table", "--dim", "2", "--sampler", "n-rooks", "--integrand", "anisotropic-gaussian")
 

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from specrate.numerics.pointfiles import write_text
+from specrate.numerics.realisations import SamplerFault
 from specrate.numerics.sources import (
     CallableSource,
     EngineSource,
     FileSource,
-    SamplerFault,
     Source,
     load_source,
 )
@@ -175,8 +175,8 @@ def test_usable_words(words: list[str], kind: str) -> None:
         (["a.txt", "three.txt"], "must have 2 columns: got 3 in three.txt"),
         (["a.txt", f"{M}:points"], "several words must all be point files"),
         ([f"{M}:points", f"{M}:jitter"], "several words must all be point files"),
-        (['cmd:"prog {n}"'], "commands are not supported yet"),
-        (["cmd:prog", "{n}", "points.txt"], "commands are not supported yet"),
+        (["cmd:prog {n} {seed}"], "a source must be .* got 'cmd:prog {n} {seed}'"),
+        (["cmd:prog", "{n}", "points.txt"], "several words must all be point files"),
     ],
 )
 def test_unusable_words(words: list[str], message: str) -> None:
@@ -193,10 +193,11 @@ def test_dimension_must_be_positive(dim: int) -> None:
         load_source(["a.txt"], dim)
 
 
-def test_no_scipy_for_a_plain_callable() -> None:
+def test_neither_scipy_nor_sympy_for_a_plain_callable() -> None:
+    """Else every child process that draws points would pay for them."""
     code = (
         "import sys; from specrate.numerics.sources import load_source; "
-        "load_source(['neighbour:points'], 2); sys.exit('scipy' in sys.modules)"
+        "load_source(['neighbour:points'], 2); sys.exit(len({'scipy', 'sympy'} & {*sys.modules}))"
     )
     subprocess.run([sys.executable, "-P", "-c", code], check=True)
 
@@ -266,9 +267,11 @@ def test_no_power_helps_a_sampler_that_always_refuses() -> None:
     def points(n: int, dim: int, rng: np.random.Generator) -> np.ndarray:
         raise ValueError(f"never {n}")
 
-    with pytest.raises(SamplerFault, match="ValueError: never 50") as caught:
+    rule = r"test must honour n = 50 or one near it \(49, 64, 32\): got ValueError: never 50 at "
+    with pytest.raises(SamplerFault, match=rule) as caught:
         of(points).admissible(50)
-    assert caught.value.kind == "exception"
+    assert caught.value.kind == "not honoured"
+    assert caught.value.evidence["tried"] == [49, 64, 32]
 
 
 def test_another_exception_is_a_fault_at_once() -> None:

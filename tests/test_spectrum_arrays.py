@@ -12,7 +12,7 @@ from specrate.numerics.spectra import power_array
 from specrate.numerics.spectrum_balls import scaled_power_ball
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
-from strategies import block_samplers, catalogue_samplers
+from strategies import block_samplers, catalogue_samplers, shaped_samplers
 
 BOUND = 1e-14
 FAR = 1 << 62
@@ -52,7 +52,8 @@ def entries(draw, counts):
 def cases(draw):
     """A sampler in up to 6 dimensions, counts of up to 1e7 strata per axis, frequencies."""
     dim = draw(st.integers(1, 6))
-    sampler = draw(st.one_of(catalogue_samplers(dim), block_samplers(dim)))
+    drawn = st.one_of(catalogue_samplers(dim), block_samplers(dim), shaped_samplers(dim))
+    sampler = draw(drawn)
     if sampler.counts_at is None:
         sampler = parse_sampler("latin-hypercube", dim)
     counts = dict(sampler.counts_at(draw(st.one_of(st.integers(2, 40), sizes(23 * dim)))))
@@ -113,6 +114,19 @@ NASTY = [
     ("regular", {"n": S}, (S, 0, -7 * S)),
     ("regular", {"n": S}, (S, S + 1, S)),
     ("random", {"N": S**3}, (1, FAR)),
+    ("box-dpp", {"n": S}, (1, 0, 0)),
+    ("box-dpp", {"n": S}, (S - 1, S + 1, FAR)),
+    ("box-dpp", {"n": 10**100}, (1, FAR)),
+    ("box-dpp:25x40", {"n1": 25 * S, "n2": 40 * S}, (25 * S - 1, 1)),
+    ("cloaked:1/3", {"n": 10**200}, (1,)),
+    ("cloaked:1/3", {"n": 10**200}, (FAR,)),
+    ("cloaked:2", {"n": S}, (1, 1, 1)),
+    ("cloaked:2", {"n": 3}, (FAR, FAR - 1)),
+    ("difference-jitter", {"N": 10**60}, (1,)),
+    ("difference-jitter", {"N": 10**4}, (1,)),
+    ("difference-jitter", {"N": 3 * S}, (S,)),
+    *[("difference-jitter", {"N": 1000}, (m,)) for m in range(200, 400, 7)],
+    ("difference-jitter", {"N": 3}, (FAR,)),
 ]
 
 

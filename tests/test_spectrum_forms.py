@@ -14,7 +14,8 @@ from specrate.numerics.spectrum_forms import (
     spectrum_form,
 )
 from specrate.theory.samplers import parse_sampler
-from strategies import samplers, supports
+from specrate.theory.shapes import SINC2
+from strategies import every_sampler, supports
 
 
 def interpolated(polynomial, values):
@@ -37,7 +38,10 @@ def form_value(form, values):
 
 def variables_of(atom, axis, counts):
     combs = [Variable(axis, int(element_fraction(c, counts)), True) for c in atom.combs]
-    return combs + [Variable(axis, int(element_fraction(c, counts)), False) for c in atom.sincs]
+    return combs + [
+        Variable(axis, int(element_fraction(c, counts)), False, shape=shape)
+        for shape, c in atom.shapes
+    ]
 
 
 def axes_and_terms(sampler, counts, support):
@@ -60,7 +64,7 @@ def axes_and_terms(sampler, counts, support):
     ]
 
 
-@given(samplers().filter(lambda s: s.counts_at is not None), st.data())
+@given(every_sampler().filter(lambda s: s.counts_at is not None), st.data())
 def test_the_form_is_the_kernel(sampler, data):
     """As a polynomial: any sinc² may have any value, only 0 on the teeth of its own comb."""
     counts = sampler.counts_at(data.draw(st.integers(2, 3000)))
@@ -68,9 +72,9 @@ def test_the_form_is_the_kernel(sampler, data):
     terms = axes_and_terms(sampler, counts, support)
     variables = {v for _, fs in terms for factor in fs for _, vs in factor for v in vs}
     values = {}
-    for v in sorted(variables, key=lambda v: (not v.comb, v.axis, v.count)):
+    for v in sorted(variables, key=lambda v: (not v.comb, v.axis, v.count, str(v.shape))):
         number = st.sampled_from((0.0, 1.0)) if v.comb else st.floats(0, 1)
-        on_tooth = values.get(replace(v, comb=True)) == 1 and not v.comb
+        on_tooth = values.get(replace(v, comb=True, shape=SINC2)) == 1 and not v.comb
         values[v] = 0.0 if on_tooth else data.draw(number)
     expected = size = 0.0
     for coefficient, factors in terms:

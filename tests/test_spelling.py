@@ -29,7 +29,7 @@ from specrate.theory.spelling import (
 )
 from specrate.theory.symbolic import Integer, Rational, sympy
 from specrate.theory.tables import parse_dim
-from strategies import samplers, supports
+from strategies import every_sampler, supports
 
 D, B = symbol("d"), sympy.Symbol("b", positive=True)
 
@@ -77,6 +77,21 @@ def region(sampler: Sampler, name: str) -> Region:
             "1 + (1/(N - 1)) sinc^2(m_1/n_1) prod_(i in u & {2,3}) sinc^2(m_i/n_2)",
         ),
         ("uncorrelated-jitter:1+1", "2", "1,2", "1 + sinc^2(m_1/n_1) sinc^2(m_2/n_2)/(N - 1)"),
+        ("box-dpp", "d", "generic", "1 - prod_(i in u) (1 - |m_i|/n)^+"),
+        ("box-dpp:2x3", "2", "1,2", "1 - (1 - |m_1|/n1)^+ (1 - |m_2|/n2)^+"),
+        ("cloaked:2", "1", "axis", "1 - sinc^2(m_1/n) exp(-|m_1/n|^2)"),
+        (
+            "cloaked:1/2",
+            "d",
+            "generic",
+            "1 - prod_(i in u) [sinc^2(m_i/n) exp(-|m_i/n|^(1/2))]",
+        ),
+        (
+            "difference-jitter",
+            "1",
+            "axis",
+            "1 - [3 sinc^3(m_1/N) sinc(3 m_1/N) - 2 sinc^2(m_1/N) sinc(4 m_1/N)]",
+        ),
     ],
 )
 def test_spectra(name: str, dim: str, support: str, text: str) -> None:
@@ -103,6 +118,10 @@ def read(
     source = text.removeprefix("N P_S = ")
     source = re.sub(r"\[([^][|]+) \| m_(\w+)\]", r"divides(\1,m_\2)", source)
     source = re.sub(r"sinc\^2\(m_(\w+)/(\([^()]*\)|\w+)\)", r"sinc2(m_\1,\2)", source)
+    source = re.sub(r"\(1 - \|m_(\w+)\|/(\w+)\)\^\+", r"tent(m_\1,\2)", source)
+    source = re.sub(r"exp\(-\|m_(\w+)/(\w+)\|\^(\([\d/]+\)|\d)\)", r"stretched(m_\1,\2,\3)", source)
+    source = re.sub(r"sinc\^3\(m_(\w+)/(\w+)\)", r"sinc(1,m_\1,\2)^3", source)
+    source = re.sub(r"sinc\((\d) m_(\w+)/(\w+)\)", r"sinc(\1,m_\2,\3)", source)
     support = [i for i, m in enumerate(frequency, 1) if m]
     while found := re.search(r"prod_\(i in u(?: & {([^}]*)})?\) ", source):
         block = support if found.group(1) is None else _inside(found.group(1), support)
@@ -113,6 +132,9 @@ def read(
     source = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", source)
     names: dict[str, object] = {f"m_{i}": m for i, m in enumerate(frequency, 1)}
     names |= {"sinc2": _sinc2, "divides": lambda n, m: float(m % n == 0)}
+    names |= {"sinc": lambda k, m, n: math.sin(math.pi * k * m / n) / (math.pi * k * m / n)}
+    names |= {"tent": lambda m, n: max(0.0, 1 - abs(m) / n)}
+    names |= {"stretched": lambda m, n, power: math.exp(-(abs(m / n) ** power))}
     names |= _single_axes(sampler, support, frequency)
     return float(eval(source, {"__builtins__": {}}, names | dict(counts)))
 
@@ -154,7 +176,7 @@ def _sinc2(m: int, n: int) -> float:
 
 @given(st.data())
 def test_text_evaluates_to_the_spectrum(data: st.DataObject) -> None:
-    sampler = data.draw(samplers())
+    sampler = data.draw(every_sampler())
     support = data.draw(supports(sampler))
     counts = (
         sampler.counts_at(data.draw(st.sampled_from([16, 100, 729])))
@@ -184,7 +206,7 @@ def kernel_value(sampler: Sampler, frequency: tuple[int, ...], counts: Mapping[s
     return counts["N"] * float(values[0])
 
 
-@given(samplers())
+@given(every_sampler())
 def test_latex_of_every_region_is_well_formed(sampler: Sampler) -> None:
     for place in regions(sampler.layout)[:20]:
         check_structure("$" + spectrum_latex(sampler, place) + "$")

@@ -162,3 +162,32 @@ def test_every_deciding_row_has_the_overall_order() -> None:
     for row in rows:
         if not row.is_overall and not row.dominated:
             assert row.order == ends[row.sampler, row.dim, row.integrand]
+
+
+def test_constants_are_exact_and_decimal() -> None:
+    """N^(-3/2) with 2R · 0.5214 for the disk, the axes' N^-2 log N with R/3."""
+    whole = json.loads(render(("jitter",), ("2",), ("disk:radius=0.3",), "point", "json"))
+    found = {r["region"]: (r["constant"], r["constant_value"]) for r in whole["rows"]}
+    edge = ("sqrt(2)/25 + 2/25 + log(1 + sqrt(2))/5", "0.312843259898832")
+    assert found == {"axis": ("1/10", "0.100000000000000"), "generic": edge, "overall": edge}
+
+
+def test_constants_with_symbols_have_no_decimal() -> None:
+    for integrand in ("disk", "worst"):
+        whole = json.loads(render(("jitter",), ("2",), (integrand,), "point", "json"))
+        axis = whole["rows"][0]
+        assert axis["constant"]
+        assert axis["constant_value"] is None
+
+
+def test_constants_without_closed_form_are_decimals_too() -> None:
+    """The mean distance in the 4-cube is an integral, a Gaussian's power a sum."""
+    for dim, integrand, word in (
+        ("4", "ball:radius=0.3", "Integral"),
+        ("2", "gaussian:sigma=0.1", "Sum"),
+    ):
+        text = render(("jitter",), (dim,), (integrand,), "point", "csv")
+        rows = list(csv.DictReader(io.StringIO(text)))
+        assert word in rows[-1]["constant"]
+        assert 0 < float(rows[-1]["constant_value"]) < 1
+        assert len(rows[-1]["constant_value"].lstrip("0.")) == 15

@@ -4,9 +4,10 @@ For every coordinate-stratified sampler N·P_S(m) is a sum of terms, each a coef
 product over the coordinates of one-dimensional factors. A factor is a linear combination of
 products of
 
-    1,   sinc²(m_i/n),   [m_i = 0],   the comb [n divides m_i],       sinc(x) = sin(πx)/(πx);
+    1,   sinc²(m_i/n),   [m_i = 0],   the comb [n divides m_i],       sinc(x) = sin(πx)/(πx),
 
-the count n belongs to the factor and not to the coordinate (multi-jitter has n and N on one axis).
+and, in place of sinc², any other shape g(m_i/n) of ``shapes.py``; the count n belongs to the factor
+and not to the coordinate (multi-jitter has n and N on one axis).
 The axes of a group share their factor, so the product over a whole group of symbolic size is
 written once. Kernels are closed under + and ×: a kernel is built as the formula is written.
 
@@ -19,6 +20,8 @@ Coefficients are elements of the field Q(π², counts), so that cancellations ar
 from dataclasses import dataclass
 from functools import lru_cache
 
+from .errors import InputError
+from .shapes import SINC2, Shape
 from .symbolic import Expr, FracElement, FracField, sympy
 
 
@@ -30,7 +33,7 @@ def coefficient_field(counts: tuple[str, ...]) -> FracField:
 
 @dataclass(frozen=True)
 class Atom:
-    """[m = 0]^zero · ∏ [comb divides m] · ∏ sinc²(m/n); equals 1 at m = 0.
+    """[m = 0]^zero · ∏ [comb divides m] · ∏ g(m/n) over shapes g; equals 1 at m = 0.
 
     The counts are elements of the coefficient field, so that N can be written as m·n where a
     cancellation needs it.
@@ -38,12 +41,27 @@ class Atom:
 
     zero: bool = False
     combs: tuple[FracElement, ...] = ()
-    sincs: tuple[FracElement, ...] = ()
+    shapes: tuple[tuple[Shape, FracElement], ...] = ()
+
+    @property
+    def sincs(self) -> tuple[FracElement, ...]:
+        """The counts of its factors sinc²(m/n), where it has no other shapes.
+
+        Raises
+        ------
+        InputError
+            If it has: what knows sinc² alone must not pass over them.
+        """
+        for shape, _ in self.shapes:
+            if shape != SINC2:
+                rule = "this can be had for spectra made of sinc² and combs alone"
+                raise InputError(f"{rule}: got the shape {shape.kind}")
+        return tuple(n for _, n in self.shapes)
 
     def __mul__(self, other: "Atom") -> "Atom":
         combs = tuple(sorted({*self.combs, *other.combs}, key=str))
-        sincs = tuple(sorted(self.sincs + other.sincs, key=str))
-        return Atom(self.zero or other.zero, combs, sincs)
+        shapes = tuple(sorted(self.shapes + other.shapes, key=str))
+        return Atom(self.zero or other.zero, combs, shapes)
 
 
 @dataclass(frozen=True)
@@ -75,9 +93,12 @@ class Factor:
 
     def off_zero(self) -> "Factor":
         """The factor for m ≠ 0: gone are [m = 0] and sinc²(m/n) on its own comb's nonzero teeth."""
-        return Factor(
-            tuple((c, a) for c, a in self.terms if not a.zero and not {*a.combs} & {*a.sincs})
-        )
+        return Factor(tuple((c, a) for c, a in self.terms if not _is_only_at_zero(a)))
+
+
+def _is_only_at_zero(atom: Atom) -> bool:
+    on_teeth = {n for shape, n in atom.shapes if shape.vanishes_on_integers}
+    return atom.zero or not on_teeth.isdisjoint(atom.combs)
 
 
 @dataclass(frozen=True)
@@ -134,6 +155,14 @@ class Kernel:
         for part in self.parts[1:]:
             total = total + part.at_zero() if self.kind == "sum" else total * part.at_zero()
         return total
+
+    @property
+    def shapes(self) -> frozenset[Shape]:
+        """The shapes that occur in it."""
+        if self.term is not None:
+            atoms = (a for _, factor in self.term.factors for _, a in factor.terms)
+            return frozenset(shape for a in atoms for shape, _ in a.shapes)
+        return frozenset[Shape]().union(*(part.shapes for part in self.parts))
 
     def restrict(self, counts: tuple[Expr | int, ...]) -> tuple[Term, ...]:
         """Terms of the kernel on supports with ``counts[g]`` axes in group g.
@@ -215,7 +244,11 @@ class Alphabet:
 
     def sinc2(self, count: FracElement) -> Factor:
         """sinc²(m/count)."""
-        return Factor(((self.number(1), Atom(sincs=(count,))),))
+        return self.shape(SINC2, count)
+
+    def shape(self, shape: Shape, count: FracElement) -> Factor:
+        """shape(m/count)."""
+        return Factor(((self.number(1), Atom(shapes=((shape, count),))),))
 
     def over(self, group: int, factor: Factor) -> Kernel:
         """The product of a factor, equal to 1 at m = 0, over all axes of a group.

@@ -5,7 +5,9 @@ of them are at an end of their range. As N → ∞ the scales n of one axis part
 that grow slower than N^x have sinc² → 0, those that grow faster sinc² → 1, and at most one lies
 between. The supremum is then the largest value over such nested corners, and it is attained.
 (Latin hypercube: N/(N − 1) → 1. Multi-jitter: its supremum is 1.234 at n = 3 and tends to 1.)
-Combs are left out: their teeth are kept apart, as a mean.
+Combs are left out: their teeth are kept apart, as a mean. Other shapes than sinc² lie between 0
+and 1 too, but that of difference jitter: there γ = 1 is the limit at |m| ≫ N, and N·P_S rises
+above it by up to a sixth where m is of the size of N.
 
 Axes of one group are exchangeable, so that a corner is known by how many axes have each pattern of
 factors switched on. For a symbolic number of axes 2 and 3 axes are looked at and must agree.
@@ -61,14 +63,14 @@ def _largest_corner(
 
 
 def _counts_in(terms: tuple[Term, ...], group: int) -> tuple[FracElement, ...]:
-    """The counts of all sinc² factors on a group."""
+    """The counts of all shapes on a group."""
     found = {
         c
         for t in terms
         for g, factor in t.factors
         if g == group
         for _, atom in factor.terms
-        for c in atom.sincs
+        for _, c in atom.shapes
     }
     return tuple(sorted(found, key=str))
 
@@ -106,7 +108,7 @@ def _corner_value(
 
 def _switched(factor: Factor, pattern: frozenset[FracElement]) -> FracElement | int:
     return sum(
-        (c for c, a in factor.terms if not a.combs and set(a.sincs) <= pattern),
+        (c for c, a in factor.terms if not a.combs and {n for _, n in a.shapes} <= pattern),
         start=0,
     )
 

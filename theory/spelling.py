@@ -8,6 +8,7 @@ from .kernels import Atom, Factor, Term
 from .orders import Order
 from .regions import Region
 from .samplers import Sampler
+from .shapes import Shape
 from .symbolic import Expr, FracElement, sympy
 
 _INDICES = "ijklpq"  # of one axis each in several groups
@@ -199,7 +200,8 @@ def _product(sampler: Sampler, group: int, factor: Factor, axis: str | None, lat
     body = _divided(body, len(inside) > 1, below, latex)
     if body == "1":
         return ""
-    closed = below == 1 and len(inside) == 1 and not body.startswith("-")
+    single = len(inside) == 1 and sum(len(a.combs) + len(a.shapes) for _, a in over) == 1
+    closed = below == 1 and single and not body.startswith("-")
     if latex:
         closed = closed or body.startswith(r"\frac")
     brackets = (r"\left[", r"\right]") if latex else ("[", "]")
@@ -244,14 +246,43 @@ def _atom(sampler: Sampler, atom: Atom, axis: str, latex: bool) -> str:
         parts.append(
             rf"[{expression_latex(name)}\mid m_{{{axis}}}]" if latex else f"[{name} | m_{axis}]"
         )
-    for count in atom.sincs:
+    for shape, count in atom.shapes:
         name = _spoken(sampler, count)
         if latex:
             below = _bracketed(expression_latex(name), name)
-            parts.append(rf"\mathrm{{sinc}}^2(m_{{{axis}}}/{below})")
+            parts.append(_shape_latex(shape, f"m_{{{axis}}}", below))
         else:
-            parts.append(f"sinc^2(m_{axis}/{_bracketed(expression_text(name), name)})")
+            below = _bracketed(expression_text(name), name)
+            parts.append(_shape_text(shape, f"m_{axis}", below))
     return (r"\," if latex else " ").join(parts) or "1"
+
+
+def _shape_text(shape: Shape, m: str, n: str) -> str:
+    x = f"{m}/{n}"
+    match shape.kind:
+        case "sinc2":
+            return f"sinc^2({x})"
+        case "tent":
+            return f"(1 - |{m}|/{n})^+"
+        case "stretched":
+            power = str(shape.beta)
+            return f"exp(-|{x}|^{power if power.isdigit() else f'({power})'})"
+        case "difference":
+            return f"[3 sinc^3({x}) sinc(3 {x}) - 2 sinc^2({x}) sinc(4 {x})]"
+
+
+def _shape_latex(shape: Shape, m: str, n: str) -> str:
+    x, sinc = f"{m}/{n}", r"\mathrm{sinc}"
+    match shape.kind:
+        case "sinc2":
+            return rf"{sinc}^2({x})"
+        case "tent":
+            return rf"(1-|{m}|/{n})^+"
+        case "stretched":
+            return rf"\exp(-|{x}|^{{{shape.beta}}})"
+        case "difference":
+            pairs = rf"3\,{sinc}^3({x})\,{sinc}(3{x})-2\,{sinc}^2({x})\,{sinc}(4{x})"
+            return rf"\left[{pairs}\right]"
 
 
 def _bracketed(text: str, expression: Expr) -> str:

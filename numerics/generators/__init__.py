@@ -1,13 +1,17 @@
 """Generators of the catalogue samplers, one file each, found by the sampler's family."""
 
 from collections.abc import Mapping
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...theory.errors import InputError
 from ...theory.samplers import Sampler
+from .box_dpp import box_dpp
+from .cloaked import cloaked
 from .correlated_multi_jitter import correlated_multi_jitter
+from .difference_jitter import difference_jitter
 from .jitter import jitter, regular
 from .latin_hypercube import latin_hypercube
 from .multi_jitter import multi_jitter
@@ -39,7 +43,7 @@ def generate(
     Raises
     ------
     InputError
-        If the sampler is a free profile, which has no points.
+        If the sampler is a free profile, which has no points, or N is out of its generator's reach.
     """
     dim = int(sampler.dim)
     match sampler.family:
@@ -60,6 +64,13 @@ def generate(
             return correlated_multi_jitter(counts["m"], counts["n"], replicates, rng)
         case "uncorrelated-jitter":
             return uncorrelated_jitter(blocks_of(sampler, counts), replicates, rng)
+        case "box-dpp":
+            return box_dpp(strata_of(sampler, counts), replicates, rng)
+        case "cloaked":
+            beta = Fraction(sampler.name.partition(":")[2])
+            return cloaked(strata_of(sampler, counts), beta, replicates, rng)
+        case "difference-jitter":
+            return difference_jitter(counts["N"], replicates, rng)
         case _:
             raise InputError(f"a sampler must have a generator: got {sampler.name}")
 

@@ -1,5 +1,7 @@
 """Samplers as users write them: correct ones first, then each with one defect."""
 
+import os
+import sys
 import time
 
 import numpy as np
@@ -107,17 +109,53 @@ def slow(n, dim, rng):
     return rng.random((n, dim))
 
 
-class Interrupted:
-    """Control-C after some calls."""
-
-    def __init__(self, calls):
-        self.calls = calls
-
-    def __call__(self, n, dim, rng):
-        self.calls -= 1
-        if self.calls < 0:
-            raise KeyboardInterrupt
-        return rng.random((n, dim))
+def fixed_rooks(n, dim, rng):
+    """The permutations are the same every time; only the jitter is drawn."""
+    cells = np.stack([np.random.Generator(np.random.PCG64(k)).permutation(n) for k in range(dim)])
+    return (cells.T + rng.random((n, dim))) / n
 
 
-interrupted = Interrupted(150)
+def doubled(n, dim, rng):
+    """Every point has a twin 1e-9 beside it."""
+    points = rng.random((n // 2, dim))
+    return np.concatenate([points, points + 1e-9])[rng.permutation(n)] % 1.0
+
+
+def legacy(n, dim, rng):
+    """Drawn from the global state."""
+    return np.random.random((n, dim))
+
+
+def hanging(n, dim, rng):
+    time.sleep(1e9)
+
+
+def hanging_from_100(n, dim, rng):
+    return rng.random((n, dim)) if n < 100 else hanging(n, dim, rng)
+
+
+def leaving(n, dim, rng):
+    print("last words")
+    os._exit(3)
+
+
+def segfaulting(n, dim, rng):
+    os.kill(os.getpid(), 11)
+
+
+def enormous(n, dim, rng):
+    return np.ones((1 << 40, dim))
+
+
+def chattering(n, dim, rng):
+    """Correct, though it prints more than a pipe holds at every call."""
+    sys.stdout.write("x" * 100_000)
+    return rng.random((n, dim))
+
+
+def recursing(n, dim, rng):
+    return recursing(n, dim, rng)
+
+
+def refusing(n, dim, rng):
+    raise ValueError(f"{n} is no prime number")

@@ -3,8 +3,11 @@
 from ..errors import InputError
 from ..signs import Assumptions, at_least
 from ..symbolic import Expr, Integer
+from .box_dpp import box_dpp
+from .cloaked import cloaked
 from .correlated_multi_jitter import correlated_multi_jitter
 from .definition import Family, Sampler
+from .difference_jitter import difference_jitter
 from .isotropic import isotropic
 from .jitter import jitter
 from .latin_hypercube import latin_hypercube
@@ -13,7 +16,7 @@ from .random import random
 from .regular import regular
 from .uncorrelated_jitter import uncorrelated_jitter
 
-__all__ = ["FAMILIES", "Family", "Sampler", "parse_sampler"]
+__all__ = ["FAMILIES", "FURTHER_FAMILIES", "Family", "Sampler", "parse_sampler"]
 
 
 FAMILIES = (
@@ -26,12 +29,21 @@ FAMILIES = (
     Family("uncorrelated-jitter", uncorrelated_jitter, "1+2+3"),
     Family("isotropic", isotropic, "b"),
 )
+"""Those of the default tables: spectra made of sinc² and combs, as the paper's are."""
+
+FURTHER_FAMILIES = (
+    Family("box-dpp", box_dpp, "25x40"),
+    Family("cloaked", cloaked, "1/2"),
+    Family("difference-jitter", difference_jitter),
+)
+"""Spectra of other shapes, with degrees other than 0 and 2: 1, any in (0, 2], and 4."""
 
 
 def family_of(text: str) -> Family | None:
     """The family that a sampler's text names, if any."""
     name = text.partition(":")[0].strip()
-    return next((f for f in FAMILIES if name == f.name or name in f.aliases), None)
+    everything = (*FAMILIES, *FURTHER_FAMILIES)
+    return next((f for f in everything if name == f.name or name in f.aliases), None)
 
 
 def parse_sampler(text: str, dim: Expr | int) -> Sampler:
@@ -42,7 +54,7 @@ def parse_sampler(text: str, dim: Expr | int) -> Sampler:
     text : str
         Grammar: ``random``, ``regular``, ``jitter``, ``jitter:25x40``, ``latin-hypercube``,
         ``n-rooks``, ``multi-jitter:8x16``, ``correlated-multi-jitter``,
-        ``uncorrelated-jitter:1+2+3``, ``isotropic:b``, ...
+        ``uncorrelated-jitter:1+2+3``, ``isotropic:b``, ``box-dpp``, ``cloaked:1/2``, ...
     dim : int or sympy.Expr
         Dimension, a number or an expression in one symbol such as d or d - 1.
 
@@ -53,7 +65,7 @@ def parse_sampler(text: str, dim: Expr | int) -> Sampler:
     """
     family = family_of(text)
     if family is None:
-        names = ", ".join(f.name for f in FAMILIES)
+        names = ", ".join(f.name for f in (*FAMILIES, *FURTHER_FAMILIES))
         raise InputError(f"a catalogue sampler is one of {names}: got {text!r}")
     size = Integer(dim) if isinstance(dim, int) else dim
     if size.is_number and (not size.is_Integer or size < family.smallest_dim):

@@ -1,0 +1,111 @@
+"""Panels of a check: N·P_S on planes of two coordinates, measured and claimed, as pictures."""
+
+from collections.abc import Callable, Sequence
+from math import floor, log10
+from typing import Any
+
+import numpy as np
+
+from ..numerics.periodograms import Box
+from ..numerics.spectrum_pictures import PlaneSpectrum, Reals
+from .figure_panels import Panel, log_ticks, ticked
+from .numerals import number
+
+LEAST = 1e-4
+"""N·P_S below which the colours are clipped."""
+
+COLOUR_MAP = "viridis"
+"""Perceptually uniform, and read alike with any colour vision (van der Walt, Smith, 2015)."""
+
+Scale = tuple[float, float]
+
+
+def plane_panels(planes: Sequence[PlaneSpectrum]) -> tuple[Panel, ...]:
+    """The measured spectrum of every plane, beside it the claimed one; one scale for both."""
+    found: list[Panel] = []
+    for plane in planes:
+        n = plane.measured.n
+        scaled = _without_zero(n * plane.measured.mean)
+        exact = None if plane.exact is None else _without_zero(n * plane.exact)
+        scale = _scale([scaled, *([] if exact is None else [exact])])
+        found.append(_panel(plane, scaled, scale, f"measured, N = {n}", True))
+        if exact is not None:
+            found.append(_panel(plane, exact, scale, f"claimed, exact, N = {n}", False))
+    return tuple(found)
+
+
+def _without_zero(scaled: Reals) -> Reals:
+    """The spectrum but for m = 0, where P_S = 1 whatever the points are."""
+    found = scaled.copy()
+    found[tuple(size // 2 for size in found.shape)] = np.nan
+    return found
+
+
+def _scale(spectra: Sequence[Reals]) -> Scale:
+    """Ends of the colours: 1, 2 or 5 times a power of ten, around the values and 1."""
+    low = min(float(np.nanmin(s)) for s in spectra)
+    high = max(float(np.nanmax(s)) for s in spectra)
+    return _rounded(min(max(low, LEAST), 0.1), down=True), _rounded(max(high, 2.0), down=False)
+
+
+def _rounded(value: float, down: bool) -> float:
+    power = 10.0 ** floor(log10(value))
+    steps = [k * power for k in (1, 2, 5, 10)]
+    slack = 1 + 1e-9
+    if down:
+        return max(s for s in steps if s <= value * slack)
+    return min(s for s in steps if s * slack >= value)
+
+
+def _panel(plane: PlaneSpectrum, scaled: Reals, scale: Scale, title: str, measured: bool) -> Panel:
+    return Panel(title, _about(plane, scaled, measured), _drawing(plane, scaled, scale, title), 3.1)
+
+
+def _drawing(
+    plane: PlaneSpectrum, scaled: Reals, scale: Scale, title: str
+) -> Callable[[Any], None]:
+    def draw(figure: Any) -> None:
+        from matplotlib.colors import LogNorm
+
+        norm: Any = LogNorm
+        ax = figure.subplots()
+        k1, k2 = _half_widths(plane)
+        image = ax.imshow(
+            np.maximum(scaled.T, LEAST), norm=norm(*scale), cmap=COLOUR_MAP, origin="lower",
+            extent=(-k1 - 0.5, k1 + 0.5, -k2 - 0.5, k2 + 0.5), interpolation="none", aspect="auto",
+        )  # fmt: skip
+        ax.set_box_aspect((2 * k2 + 1) / (2 * k1 + 1))
+        first, second = plane.coordinates
+        ax.set_xlabel(rf"$m_{{{first}}}$", parse_math=True)
+        ax.set_ylabel(rf"$m_{{{second}}}$", parse_math=True)
+        ax.set_title(title)
+        clipped = float(np.nanmin(scaled)) < scale[0]
+        side = ax.inset_axes([1.04, 0.0, 0.05, 1.0])
+        bar = figure.colorbar(image, cax=side, extend="min" if clipped else "neither")
+        ticked(bar.ax, "y", log_ticks(*scale))
+        bar.ax.grid(visible=False)
+        bar.set_label(r"$N\cdot P_S$  (logarithmic)", parse_math=True)
+
+    return draw
+
+
+def _half_widths(plane: PlaneSpectrum) -> tuple[int, int]:
+    where = plane.measured.where
+    assert isinstance(where, Box)
+    first, second = where.half_widths
+    return first, second
+
+
+def _about(plane: PlaneSpectrum, scaled: Reals, measured: bool) -> str:
+    """The three lowest frequencies, and the range."""
+    k1, k2 = _half_widths(plane)
+    low = [(1, 0), (0, 1), (1, 1)]
+    parts = [f"N·P_S = {number(float(scaled[k1 + a, k2 + b]))} at m = ({a}, {b})" for a, b in low]
+    least, largest = float(np.nanmin(scaled)), float(np.nanmax(scaled))
+    first, second = plane.coordinates
+    reach = (
+        f"on |m_{first}| ≤ {k1}, |m_{second}| ≤ {k2} between {number(least)} and {number(largest)}"
+    )
+    mean = f"Mean of {plane.measured.realisations} realisations. " if measured else ""
+    mean += f"Coordinates {first} and {second}: "
+    return f"{mean}{', '.join(parts)}; {reach}. Independent points have N·P_S = 1 everywhere."
