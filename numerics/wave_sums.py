@@ -1,19 +1,19 @@
 r"""Sums of damped waves over the whole numbers m >= M, certified, by integrals along two rays.
 
-With e(z) = z^−p exp(−γz²) ∏ exp(−(z/n)^β), 0 < β <= 2, which is real on the positive real axis and
-analytic right of the imaginary one, with 0 <= h <= 1/2, E_h = exp(2πihz) and c = M − 1/2,
+Let e(z) = z^−p exp(−γz²) ∏ exp(−(z/n)^β), 0 < β <= 2, which is real on the positive real axis and
+analytic right of the imaginary one, 0 <= h <= 1/2, E_h = exp(2πihz) and c = M − 1/2. Along any ray
+z = c + re^(iφ), 0 < φ <= π/4, below which Re z^β >= 0,
 
-    Σ_{m>=M} e(m) cos 2πhm = Re ∫_c^(c+i∞) e(z) (E_h + E_(1−h))/(1 − E_1) dz,
-    Σ_{m>=M} e(m) sin 2πhm = Im ∫_c^(c+i∞) e(z) (E_h − E_(1−h))/(1 − E_1) dz:
+    Σ_{m>=M} e(m) cos 2πhm = Re ∫ e(z) (E_h + E_(1−h))/(1 − E_1) dz,
+    Σ_{m>=M} e(m) sin 2πhm = Im ∫ e(z) (E_h − E_(1−h))/(1 − E_1) dz:
 
-1/(1 − E_1) has the residue −1/2πi at every m, and the mirror image of the path brings the conjugate
-of what E_(1−h) brings here (Lindelöf 1905). The path may be any ray z = c + re^(iφ), 0 < φ <= π/4,
-where Re z^β >= 0. The integrand is split by
+1/(1 − E_1) has the residue −1/2πi at every m, and the mirror image of the ray brings the conjugate
+of what E_(1−h) brings here (Lindelöf 1905). The integrand is split by
 
     (E_h ± E_(1−h))/(1 − E_1) = E_h + (E_h E_1 ± E_(1−h))/(1 − E_1),
 
 the first part, smooth in ln z whatever the scales h and n, along φ = π/8, the second, gone after a
-few periods, along φ = π/4. No n is too large for them, and no digits are out of reach.
+few periods, along φ = π/4. A large n costs the digits that cancel and no terms.
 """
 
 from collections import defaultdict

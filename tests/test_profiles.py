@@ -13,6 +13,7 @@ the quotient is E(x) to well within the tolerance.
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from specrate.numerics.envelopes import envelope
 from specrate.numerics.integrands.protocol import mp
 from specrate.numerics.spectra import counts_by_growth, scaled_power
 from specrate.theory.combs import Comb
@@ -216,6 +217,23 @@ def test_coefficients_of_jitter_and_correlated_multi_jitter():
         2: sympy.pi**2 / 3,
         4: sympy.pi**4 / 72,
     }
+
+
+@pytest.mark.parametrize(
+    ("name", "dim", "support"),
+    [
+        ("box-dpp", 2, (1, 2)),
+        ("cloaked:1/2", 2, (1, 2)),
+        ("cloaked:3/2", 2, (1,)),
+        ("difference-jitter", 1, (1,)),
+    ],
+)
+def test_profiles_of_other_shapes_bound_the_spectrum_on_both_sides(name, dim, support):
+    """Ratios over the shells are the same at any N; with a wrong b or e they drift as a power."""
+    ratios = [envelope(parse_sampler(name, dim), support, n) for n in (64, 1024, 4096)]
+    assert all(0.5 < r.low <= r.high < 2.5 for r in ratios)
+    assert ratios[2].low == pytest.approx(ratios[1].low, rel=0.02)
+    assert ratios[2].high == pytest.approx(ratios[1].high, rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from specrate.theory.errors import InputError
 from specrate.theory.samplers import FAMILIES, FURTHER_FAMILIES, family_of, parse_sampler
 from specrate.theory.signs import symbol
 from specrate.theory.symbolic import Integer, Rational, sympy
+from specrate.theory.tables import table
 from strategies import every_sampler, samplers
 
 d = symbol("d")
@@ -242,6 +243,31 @@ def test_the_free_profile():
     assert (flat.degree, flat.effective) == (0, 0)
     (free,) = parse_sampler("isotropic:b", d).free_profile
     assert (free.degree, free.effective) == (sympy.Symbol("b", positive=True), 1 / d)
+
+
+@pytest.mark.parametrize(
+    ("name", "dim", "worst", "best"),
+    [
+        ("box-dpp", "d", (1 + 1 / d, 1), (1 + 1 / d, 0)),
+        ("box-dpp", 1, (2, 1), (2, 0)),
+        ("cloaked:1/2", "d", (1 + 1 / (2 * d), 0), (1 + 1 / (2 * d), 0)),
+        ("cloaked:1", 3, (Rational(4, 3), 1), (Rational(4, 3), 0)),
+        ("cloaked:3/2", "d", (1 + 1 / d, 0), (1 + 3 / (2 * d), 0)),
+        ("cloaked:2", "d", (1 + 1 / d, 0), (1 + 2 / d, 0)),
+        ("difference-jitter", 1, (2, 0), (5, 0)),
+    ],
+)
+def test_rates_of_other_degrees(name, dim, worst, best):
+    """1 + e min(b, q), q = 1 for jumps, with a logarithm where b = q; e = 1/d."""
+    rows = [r for r in table((name,), (dim,), ("worst", "best")).rows if r.is_overall]
+    found = [(r.order.exponent, r.order.log_power) for r in rows]
+    for (exponent, log), expected in zip(found, (worst, best), strict=True):
+        assert (sympy.simplify(exponent - expected[0]), log) == (0, expected[1])
+
+
+def test_further_families_are_in_no_default_table():
+    everywhere = {r.sampler for dim in ("d", 1, 2) for r in table((), (dim,), ("best",)).rows}
+    assert everywhere.isdisjoint(f.name for f in FURTHER_FAMILIES)
 
 
 def test_equal_strata_are_one_sampler():

@@ -1,6 +1,7 @@
 """Power of a function against shapes: plain sums with their tails, exact sums, variances."""
 
 from fractions import Fraction
+from math import log
 
 import numpy as np
 import pytest
@@ -129,6 +130,15 @@ def test_variances_are_lattice_sums(sampler, dim, integrand):
     assert exact.error_bound < 1e-14 * exact.value
     assert abs(exact.value - lattice.value) <= exact.error_bound + lattice.error_bound
     assert lattice.error_bound < 1e-5 * lattice.value
+
+
+def test_the_logarithm_of_box_dpp():
+    """On B_1, q = b = 1: 2π² N² V = Σ_{m<N} 1/m + N Σ_{m>=N} 1/m² = ln N + γ + 1 + O(N^-2)."""
+    found, f = parse_sampler("box-dpp", 1), parse_integrand("bernoulli:k=1", 1)
+    for n in (10**6, 10**30):
+        value = float(exact_variance(found, found.counts_at(n), f).value) * n**2
+        expected = (log(n) + 1 + np.euler_gamma) / (2 * np.pi**2)
+        assert value == pytest.approx(expected, rel=1e-11)
 
 
 def test_a_variance_at_n_of_thirty_digits():

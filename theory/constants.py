@@ -17,6 +17,7 @@ from .product_constants import product_constant
 from .radial import Leading
 from .rates import RegionRate, leading_constant
 from .samplers.definition import Sampler
+from .shapes import SINC2
 from .symbolic import Expr, Integer, sympy
 
 MODELS = ("worst", "best")
@@ -54,6 +55,8 @@ def region_constant(
     if decay.family in MODELS:
         return leading_constant(sampler, rate, decay)
     if not sampler.dim.is_Integer or primitive.name == "segment":
+        return None
+    if sampler.kernel is not None and not sampler.kernel.shapes <= {SINC2}:
         return None
     if decay.family in ("ball", "disk", "chord"):
         radius = parameters(decay.name).get("radius", (sympy.Symbol("R", positive=True),))[0]
