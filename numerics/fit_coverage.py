@@ -17,7 +17,6 @@ from math import nan
 from pathlib import Path
 from statistics import median
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from .coverage_truths import TRUTHS, Truth, generic
 from .estimated_spectra import EstimatedSpectrum
 from .integrands.protocol import Floats, Ints
 from .moments import Interval, special
+from .probes import amplitudes
 from .profile_fits import ProfileFit, fit_profile
 from .streams import stream
 
@@ -62,9 +62,9 @@ MEASURED = (Budget(16, (16, 64, 256), 8, True), Budget(256, (16, 64, 144), 10, T
 
 
 def frequencies(truth: Truth, budget: Budget, n: int) -> Ints:
-    """The frequencies at N: on several coordinates 2/3 as many per coordinate as on one."""
-    fewer = truth.frequencies is generic
-    count = max(4, round(0.45 * budget.frequencies)) if fewer else budget.frequencies
+    """The frequencies at N: on two coordinates about half as many on each as on one."""
+    several = truth.frequencies is generic
+    count = max(4, round(0.45 * budget.frequencies)) if several else budget.frequencies
     return truth.frequencies(n, count)
 
 
@@ -84,19 +84,11 @@ def spectra(truth: Truth, budget: Budget, rng: np.random.Generator) -> list[Esti
 
 def measured(points: Floats, m: Ints) -> EstimatedSpectrum:
     """Mean and dispersion of N|F_N(m)|² over realisations (R, N, d), at frequencies (k, d)."""
-    axes: list[int] = np.flatnonzero(m.any(axis=0)).tolist()
-    power, dispersion = np.empty(len(m)), np.empty(len(m))
-    waves: dict[tuple[int, int], Any] = {}
-    for row, frequency in enumerate(m):
-        product: Any = 1.0
-        for axis in axes:
-            k = int(frequency[axis])
-            if (axis, k) not in waves:
-                waves[axis, k] = np.exp(-2j * np.pi * k * points[:, :, axis])
-            product = product * waves[axis, k]
-        values = points.shape[1] * np.abs(product.mean(axis=1)) ** 2
-        power[row], dispersion[row] = values.mean(), values.var(ddof=1) / values.mean() ** 2
-    return EstimatedSpectrum(points.shape[1], len(points), m, power, dispersion)
+    n = points.shape[1]
+    values = n * np.abs(amplitudes(points, [tuple(f) for f in m.tolist()])) ** 2
+    power = values.mean(axis=1)
+    dispersion = values.var(axis=1, ddof=1) / power**2
+    return EstimatedSpectrum(n, len(points), m, power, dispersion)
 
 
 def outcome(truth: Truth, fitted: ProfileFit, seconds: float) -> Outcome:
@@ -183,12 +175,13 @@ def rows(
                 continue
             chunks, found = known.get((truth.name, label(budget)), {}), list[Outcome]()
             for first in range(0, runs, CHUNK):
+                count = min(CHUNK, runs - first)
                 part = chunks.get(first, [])
-                if not part:
-                    part = run(truth, budget, seed, first, CHUNK)
+                if len(part) < count:
+                    part = run(truth, budget, seed, first, count)
                     _append(path, truth, budget, seed, first, part)
-                found += part
-            yield truth.name, budget, found[:runs]
+                found += part[:count]
+            yield truth.name, budget, found
 
 
 def _append(
