@@ -7,14 +7,20 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from specrate.numerics.crossovers import crossovers, region_constants
+from specrate.numerics.exact_variances.crossovers import crossovers, region_constants
+from specrate.numerics.exact_variances.variances import exact_variance
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.numerics.generators import generate
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.moments import Moments, estimates, shifted, update, variance_interval
-from specrate.numerics.probes import amplitudes
-from specrate.numerics.spectra import power_array
+from specrate.numerics.measuring.moments import (
+    Moments,
+    estimates,
+    shifted,
+    update,
+    variance_interval,
+)
+from specrate.numerics.measuring.probes import amplitudes
 from specrate.numerics.streams import stream
-from specrate.numerics.variances import exact_variance
 from specrate.theory.rates import profile_of
 from specrate.theory.regions import select
 from specrate.theory.samplers import parse_sampler

@@ -4,13 +4,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .check_documents import check
-    from .radial_integrals import radial
-    from .variances import variance
+    from .checking.check_documents import check
+    from .equation17.radial_integrals import radial
+    from .exact_variances.variances import variance
 
 __all__ = ["check", "radial", "variance"]
 
-_DOORS = {"check": ".check_documents", "radial": ".radial_integrals", "variance": ".variances"}
+_DOORS = {
+    "check": ".checking.check_documents",
+    "radial": ".equation17.radial_integrals",
+    "variance": ".exact_variances.variances",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -5,6 +5,7 @@ a fraction or a power of ten, and is made a ball anew at each precision; ``certi
 precision until the digits stand, so that cancellation costs time and never digits.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -22,6 +23,9 @@ Ball: TypeAlias = Any
 """A real ball, ``flint.arb``. The square of one that may hold 0 is x * x: x**2 gives nan."""
 
 _MOST_BITS = 1 << 20
+_NUMBER = re.compile(
+    r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"
+)
 
 
 @dataclass(frozen=True)
@@ -94,3 +98,20 @@ def spelled(ball: Ball, digits: int) -> Certified:
         return Certified(text, bound)
     finally:
         flint.ctx.prec = before
+
+
+def exact_number(text: str, name: str) -> Fraction:
+    """A fraction, decimal or power-of-ten literal, read exactly.
+
+    Raises
+    ------
+    InputError
+        If it is none, or longer than a number needs to be.
+    """
+    word = text.strip()
+    if not _NUMBER.fullmatch(word) or word.endswith("/0"):
+        raise InputError(f"{name} must be a number such as 3/2, 0.1 or 1e-30: got {text!r}")
+    try:
+        return Fraction(word)
+    except ZeroDivisionError:
+        raise InputError(f"{name} must be a number such as 3/2: got {text!r}") from None

@@ -20,12 +20,12 @@ import numpy as np
 
 from ..theory.claims import RateClaim, SamplerClaim, parse_claim
 from ..theory.errors import InputError
-from .catalogue_source import counts_of
-from .check_documents import Document, check
-from .design_strategies import NamedSampler, counts, integrands, layouts
-from .falsifiers import SamplerFunction
-from .realisations import SamplerFault
-from .sources import CallableSource
+from .checking.check_documents import Document, check
+from .falsification.design_strategies import NamedSampler, counts, integrands, layouts
+from .falsification.falsifiers import SamplerFunction
+from .point_sources.catalogue_source import counts_of
+from .point_sources.realisations import SamplerFault
+from .point_sources.sources import CallableSource
 
 __all__ = ["NamedSampler", "assert_design", "counts", "integrands", "layouts", "word_of"]
 

@@ -24,7 +24,7 @@ from math import log
 from typing import Any, TypeAlias
 
 from .balls import Ball, exact_ball, flint
-from .coefficients import Rational
+from .expected_spectra.coefficients import Rational
 
 Complex: TypeAlias = Any
 """A complex ball, ``flint.acb``."""

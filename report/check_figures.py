@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..numerics.spectrum_pictures import RegionProfile, SpectrumPictures
+from ..numerics.measuring.spectrum_pictures import RegionProfile, SpectrumPictures
 from .check_convergence import convergence_panels, time_panels
 from .check_profiles import FLOOR, MOST_PANELS, chosen, is_drawn, profile_panel, profiles_of
 from .check_spectra import LEAST, plane_panels

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..numerics.spectrum_pictures import SpectrumPictures
+from ..numerics.measuring.spectrum_pictures import SpectrumPictures
 from ..theory.errors import InputError
 from . import check_sections as sections
 from .check_figures import CheckFigure, figures

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..numerics.moments import Interval
-from ..numerics.spectrum_pictures import (
+from ..numerics.measuring.moments import Interval
+from ..numerics.measuring.spectrum_pictures import (
     FittedMonomial,
     Reals,
     RegionProfile,

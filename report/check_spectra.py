@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..numerics.periodograms import Box
-from ..numerics.spectrum_pictures import PlaneSpectrum, Reals
+from ..numerics.measuring.periodograms import Box
+from ..numerics.measuring.spectrum_pictures import PlaneSpectrum, Reals
 from .figure_panels import Panel, log_ticks, ticked
 from .numerals import number
 

@@ -3,7 +3,7 @@
 from math import hypot, log
 from typing import Any
 
-from ..numerics.spectrum_pictures import SpectrumPictures
+from ..numerics.measuring.spectrum_pictures import SpectrumPictures
 from .check_figures import merged_profiles
 from .check_formats import frequency_text, short
 from .check_profiles import monomial_words

@@ -287,8 +287,8 @@ def _stress(a: argparse.Namespace) -> tuple[str, int]:
         return _diagram(a)
     if a.budget is not None or a.seed is not None:
         raise InputError("--budget and --seed must come with --diagram: got them without")
-    from ..numerics import stress_cases
-    from ..numerics.stress import stress
+    from ..numerics.method_tests import stress_cases
+    from ..numerics.method_tests.stress import stress
     from .stress_formats import render
 
     document = stress(stress_cases.FAMILIES, _progress)
@@ -298,7 +298,7 @@ def _stress(a: argparse.Namespace) -> tuple[str, int]:
 
 
 def _diagram(a: argparse.Namespace) -> tuple[str, int]:
-    from ..numerics.work_precision import work_precision
+    from ..numerics.method_tests.work_precision import work_precision
     from ..theory.errors import InputError
     from .work_precision_figures import draw, require_matplotlib
     from .work_precision_formats import render

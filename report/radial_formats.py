@@ -2,7 +2,7 @@
 
 import json
 
-from ..numerics.radial_integrals import RadialResult
+from ..numerics.equation17.radial_integrals import RadialResult
 
 
 def render(found: RadialResult, form: str) -> str:

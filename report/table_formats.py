@@ -97,7 +97,7 @@ def _decimal(constant: Expr | None) -> str | None:
     if constant is None or constant.free_symbols:
         return None
     from ..numerics.balls import certified, spelled
-    from ..numerics.constant_balls import constant_ball
+    from ..numerics.exact_variances.constant_balls import constant_ball
 
     return spelled(certified(lambda: constant_ball(constant), _DIGITS), _DIGITS).value
 
@@ -112,7 +112,7 @@ def _crossovers(found: Table, integrands: Sequence[str]) -> list[Document]:
     wanted = [i for i in integrands if "gaussian" in i]
     if not wanted:
         return []
-    from ..numerics.crossovers import crossovers
+    from ..numerics.exact_variances.crossovers import crossovers
     from ..numerics.integrands.grammar import parse_integrand
     from ..numerics.integrands.protocol import mp
     from ..theory.samplers import parse_sampler

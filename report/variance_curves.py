@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..numerics.designs import rate_probes
+from ..numerics.checking.designs import rate_probes
 from ..numerics.integrands.grammar import parse_integrand
 from ..theory.claims import RateClaim, parse_claim
 

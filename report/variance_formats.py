@@ -4,7 +4,7 @@ import json
 from fractions import Fraction
 from typing import Any
 
-from ..numerics.variances import VarianceResult
+from ..numerics.exact_variances.variances import VarianceResult
 from .grids import PREAMBLE, booktabs, comma_separated, csv_cell, escaped, markdown
 
 _HEAD = ("sampler", "integrand", "d", "N", "variance", "error at most", "method")

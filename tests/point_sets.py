@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from specrate.numerics.fault_kinds import Fault
-from specrate.numerics.faults import Findings
-from specrate.numerics.sources import EngineSource
+from specrate.numerics.checking.faults import Findings
+from specrate.numerics.point_sources.fault_kinds import Fault
+from specrate.numerics.point_sources.sources import EngineSource
 
 Sampler = Callable[[int, int, int, np.random.Generator], np.ndarray]
 

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from specrate.numerics.agreement import Pair, integrands, main, pairs, samplers
 from specrate.numerics.integrands import CATALOGUE
+from specrate.numerics.method_tests.agreement import Pair, integrands, main, pairs, samplers
 from specrate.theory.samplers import FAMILIES
 
 _FAR = 8.0
@@ -45,7 +45,8 @@ def test_nothing_of_the_catalogue_is_missing() -> None:
 def test_the_command_prints_a_row_for_each_sampler(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("specrate.numerics.agreement._SAMPLERS", {1: ("random", "jitter")})
+    samplers = {1: ("random", "jitter")}
+    monkeypatch.setattr("specrate.numerics.method_tests.agreement._SAMPLERS", samplers)
     assert main(["--replicates", "256", "--seed", "3"]) == 0
     out = capsys.readouterr().out
     assert out.count("\n| ") == 2

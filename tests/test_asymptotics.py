@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.asymptotics import (
+from specrate.numerics.exact_variances.asymptotics import (
     START,
     Rung,
     ladder,

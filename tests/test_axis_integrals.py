@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specrate.numerics.axis_integrals import (
+from specrate.numerics.balls import flint
+from specrate.numerics.equation17.axis_integrals import (
     ROUTES,
     AxisProblem,
     axis_integral,
     gaussian_deficit,
     solve_axis,
 )
-from specrate.numerics.balls import flint
+from specrate.numerics.equation17.space_integrands import SpaceBall, SpaceGaussian
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.space_integrands import SpaceBall, SpaceGaussian
 from specrate.theory.errors import InputError
 
 F = Fraction

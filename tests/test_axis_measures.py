@@ -6,8 +6,13 @@ from math import pi, prod, sin
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.axis_measures import UNIFORM, AxisMeasure, OutOfReach, measure_terms
-from specrate.numerics.spectra import scaled_power
+from specrate.numerics.exact_variances.axis_measures import (
+    UNIFORM,
+    AxisMeasure,
+    OutOfReach,
+    measure_terms,
+)
+from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.theory.kernels import Alphabet, Factor
 from specrate.theory.layouts import Layout, grouped
 from specrate.theory.samplers import Sampler, parse_sampler

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 from specrate.numerics.balls import certified
-from specrate.numerics.constant_balls import constant_ball
+from specrate.numerics.exact_variances.constant_balls import constant_ball
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.theory.axis_powers import (
     IGNORED,

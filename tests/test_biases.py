@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from point_sets import centred_latin_hypercube, grid, independent, of_kind
-from specrate.numerics.biases import axis_means, log_capital
-from specrate.numerics.fault_kinds import Fault
-from specrate.numerics.faults import BIAS_LEVEL, Findings, find_faults
-from specrate.numerics.probes import amplitudes, frequencies
+from specrate.numerics.checking.biases import axis_means, log_capital
+from specrate.numerics.checking.faults import BIAS_LEVEL, Findings, find_faults
+from specrate.numerics.measuring.probes import amplitudes, frequencies
+from specrate.numerics.point_sources.fault_kinds import Fault
 from specrate.numerics.streams import stream
 
 

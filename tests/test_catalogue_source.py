@@ -1,11 +1,16 @@
 """The source that words name: a catalogue sampler, a child, a command or point files."""
 
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource, chunk_size, counts_of, open_source
-from specrate.numerics.child_processes import Limits
-from specrate.numerics.child_source import ChildSource
-from specrate.numerics.command_source import CommandSource
-from specrate.numerics.sources import FileSource
+from specrate.numerics.point_sources.catalogue_source import (
+    CatalogueSource,
+    chunk_size,
+    counts_of,
+    open_source,
+)
+from specrate.numerics.point_sources.child_processes import Limits
+from specrate.numerics.point_sources.child_source import ChildSource
+from specrate.numerics.point_sources.command_source import CommandSource
+from specrate.numerics.point_sources.sources import FileSource
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

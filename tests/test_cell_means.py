@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from specrate.numerics.balls import Ball, flint, rational
-from specrate.numerics.cell_means import mean_over_cell
-from specrate.numerics.covariograms import Covariogram, unit_ball
+from specrate.numerics.exact_variances.cell_means import mean_over_cell
+from specrate.numerics.exact_variances.covariograms import Covariogram, unit_ball
 
 steps = st.fractions(Fraction(1, 4), Fraction(3, 2), max_denominator=20)
 

@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 import pytest
-from specrate.numerics import sampler_processes
-from specrate.numerics.check_documents import check, read_plan
-from specrate.numerics.child_processes import Limits, Overdue
-from specrate.numerics.pointfiles import write_text
+from specrate.numerics.checking.check_documents import check, read_plan
+from specrate.numerics.point_sources import sampler_processes
+from specrate.numerics.point_sources.child_processes import Limits, Overdue
+from specrate.numerics.point_sources.pointfiles import write_text
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 

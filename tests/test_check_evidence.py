@@ -3,14 +3,14 @@
 from types import SimpleNamespace
 
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource
-from specrate.numerics.check_evidence import points, predicted_order, rates, regions
-from specrate.numerics.child_processes import Limits
-from specrate.numerics.designs import design
+from specrate.numerics.checking.check_evidence import points, predicted_order, rates, regions
+from specrate.numerics.checking.designs import design
+from specrate.numerics.checking.judgements import State, judgements
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.judgements import State, judgements
-from specrate.numerics.measurements import Measurement, grow, homogenise
-from specrate.numerics.probes import probe
+from specrate.numerics.measuring.measurements import Measurement, grow, homogenise
+from specrate.numerics.measuring.probes import probe
+from specrate.numerics.point_sources.catalogue_source import CatalogueSource
+from specrate.numerics.point_sources.child_processes import Limits
 from specrate.theory.samplers import parse_sampler
 
 

@@ -10,7 +10,11 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from specrate.numerics.spectrum_pictures import RegionProfile, RegionSpectrum, SpectrumPictures
+from specrate.numerics.measuring.spectrum_pictures import (
+    RegionProfile,
+    RegionSpectrum,
+    SpectrumPictures,
+)
 from specrate.report.check_convergence import convergence_panels, time_panels
 from specrate.report.check_figures import figures, merged_profiles
 from specrate.report.check_profiles import (

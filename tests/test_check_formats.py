@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from latex import check_structure, compile_where_possible
 from specrate.numerics import check
-from specrate.numerics.pointfiles import write_text
+from specrate.numerics.point_sources.pointfiles import write_text
 from specrate.numerics.streams import stream
 from specrate.report.check_formats import frequency_text, render, short
 

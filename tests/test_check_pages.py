@@ -14,7 +14,7 @@ from latex import check_structure
 
 pytest.importorskip("matplotlib")
 
-from specrate.numerics.spectrum_pictures import SpectrumPictures
+from specrate.numerics.measuring.spectrum_pictures import SpectrumPictures
 from specrate.report.check_figures import figures
 from specrate.report.check_latex import latex_prose
 from specrate.report.check_pages import page, write_report

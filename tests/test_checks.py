@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics import checks
-from specrate.numerics.check_documents import check, document
-from specrate.numerics.checks import run_check
-from specrate.numerics.child_processes import Limits, OutOfTime
-from specrate.numerics.designs import design
-from specrate.numerics.judgements import judgements
-from specrate.numerics.pointfiles import write_text
+from specrate.numerics.checking import checks
+from specrate.numerics.checking.check_documents import check, document
+from specrate.numerics.checking.checks import run_check
+from specrate.numerics.checking.designs import design
+from specrate.numerics.checking.judgements import judgements
+from specrate.numerics.point_sources.child_processes import Limits, OutOfTime
+from specrate.numerics.point_sources.pointfiles import write_text
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 

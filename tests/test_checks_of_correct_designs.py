@@ -6,9 +6,9 @@ A correct design is contradicted or called faulty with a probability of at most 
 from pathlib import Path
 
 import pytest
-from specrate.numerics import checks
-from specrate.numerics.check_documents import check
-from specrate.numerics.designs import design, ladder
+from specrate.numerics.checking import checks
+from specrate.numerics.checking.check_documents import check
+from specrate.numerics.checking.designs import design, ladder
 
 SAMPLERS = str(Path(__file__).parent / "designs" / "samplers.py")
 

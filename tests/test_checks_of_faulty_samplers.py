@@ -9,7 +9,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from specrate.numerics.check_documents import check
+from specrate.numerics.checking.check_documents import check
 
 SAMPLERS = str(Path(__file__).parent / "designs" / "samplers.py")
 

@@ -6,7 +6,7 @@ They are off by factors that 128 realisations tell apart with a probability abov
 from pathlib import Path
 
 import pytest
-from specrate.numerics.check_documents import check
+from specrate.numerics.checking.check_documents import check
 
 SAMPLERS = str(Path(__file__).parent / "designs" / "samplers.py")
 

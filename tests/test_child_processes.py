@@ -6,7 +6,7 @@ import time
 from math import inf
 
 import pytest
-from specrate.numerics.child_processes import (
+from specrate.numerics.point_sources.child_processes import (
     OUTPUT_KEPT,
     Failure,
     Limits,
@@ -25,7 +25,7 @@ from specrate.numerics.child_processes import (
     stop,
     unanswered,
 )
-from specrate.numerics.realisations import SamplerFault
+from specrate.numerics.point_sources.realisations import SamplerFault
 
 LONG = 60.0  # seconds that are never waited for
 

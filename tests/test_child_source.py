@@ -9,17 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics import sampler_processes
-from specrate.numerics.child_processes import Failure, Limits, OutOfTime
-from specrate.numerics.child_source import (
+from specrate.numerics.point_sources import sampler_processes
+from specrate.numerics.point_sources.child_processes import Failure, Limits, OutOfTime
+from specrate.numerics.point_sources.child_source import (
     ChildSource,
     Repetition,
     global_state_fault,
     open_child_source,
     repetition,
 )
-from specrate.numerics.realisations import SamplerFault
-from specrate.numerics.sources import load_source
+from specrate.numerics.point_sources.realisations import SamplerFault
+from specrate.numerics.point_sources.sources import load_source
 from specrate.theory.errors import InputError
 
 SAMPLERS = '''
@@ -379,7 +379,7 @@ def test_the_child_dies_with_its_caller():
     Path("mode").write_text("sleeps")
     Path("sleeper").unlink(missing_ok=True)
     code = (
-        "from specrate.numerics.child_source import open_child_source; "
+        "from specrate.numerics.point_sources.child_source import open_child_source; "
         "source = open_child_source('samplers.py:switch', 2); source.admissible(10); "
         "print(source.process.running.child.process.pid, flush=True); "
         "source.realise(16, 0, range(1))"

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from specrate.numerics import stress_cases
-from specrate.numerics.radial_cases import RADIAL
-from specrate.numerics.stress import Family, Method, Outcome
+from specrate.numerics.method_tests import stress_cases
+from specrate.numerics.method_tests.radial_cases import RADIAL
+from specrate.numerics.method_tests.stress import Family, Method, Outcome
 from specrate.report.cli import FORMATS
 from test_cli import DISK, run
 

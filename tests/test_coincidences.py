@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from point_sets import centred_latin_hypercube, grid, independent, jitter, of_kind
-from specrate.numerics.faults import find_faults
+from specrate.numerics.checking.faults import find_faults
 from specrate.numerics.streams import stream
 
 

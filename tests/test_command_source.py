@@ -7,11 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics import command_source
-from specrate.numerics.child_processes import Failure, Limits, OutOfTime
-from specrate.numerics.command_source import command_seed, open_command_source, seed_fault
-from specrate.numerics.faults import find_faults
-from specrate.numerics.realisations import SamplerFault
+from specrate.numerics.checking.faults import find_faults
+from specrate.numerics.point_sources import command_source
+from specrate.numerics.point_sources.child_processes import Failure, Limits, OutOfTime
+from specrate.numerics.point_sources.command_source import (
+    command_seed,
+    open_command_source,
+    seed_fault,
+)
+from specrate.numerics.point_sources.realisations import SamplerFault
 from specrate.theory.errors import InputError
 
 PROGRAM = """

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, exact_ball, flint
-from specrate.numerics.constant_balls import constant_ball, mean_distance_ball
+from specrate.numerics.exact_variances.constant_balls import constant_ball, mean_distance_ball
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.axis_powers import gaussian, power_law
 from specrate.theory.errors import InputError

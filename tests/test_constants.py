@@ -1,9 +1,9 @@
 """Constants of named integrands in tables: symbols for parameters, sums over regions, refusals."""
 
 import pytest
-from specrate.numerics.asymptotics import measured_constant
 from specrate.numerics.balls import certified
-from specrate.numerics.constant_balls import constant_ball
+from specrate.numerics.exact_variances.asymptotics import measured_constant
+from specrate.numerics.exact_variances.constant_balls import constant_ball
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.constants import region_constant, summed_constant

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from specrate.numerics.balls import flint, rational
-from specrate.numerics.cell_means import mean_over_cell
-from specrate.numerics.covariogram_series import mean_at_distance, mean_deficit
-from specrate.numerics.covariograms import Covariogram, at_zero, value
+from specrate.numerics.exact_variances.cell_means import mean_over_cell
+from specrate.numerics.exact_variances.covariogram_series import mean_at_distance, mean_deficit
+from specrate.numerics.exact_variances.covariograms import Covariogram, at_zero, value
 
 KINDS = tuple(Covariogram(d, k) for d in (2, 3) for k in range(d))
 kinds = st.sampled_from(KINDS)

@@ -6,14 +6,18 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from specrate.numerics.balls import flint, rational
-from specrate.numerics.covariogram_series import mean_deficit
-from specrate.numerics.covariogram_variances import MOST_CELLS, OutOfReach, ball_variance
-from specrate.numerics.covariograms import Covariogram
+from specrate.numerics.exact_variances.covariogram_series import mean_deficit
+from specrate.numerics.exact_variances.covariogram_variances import (
+    MOST_CELLS,
+    OutOfReach,
+    ball_variance,
+)
+from specrate.numerics.exact_variances.covariograms import Covariogram
+from specrate.numerics.exact_variances.lattice_variances import lattice_variance
 from specrate.numerics.generators import generate
 from specrate.numerics.integrands.ball import Ball
 from specrate.numerics.integrands.chord import Chord
-from specrate.numerics.lattice_variances import lattice_variance
-from specrate.numerics.moments import Moments, estimates, shifted, update
+from specrate.numerics.measuring.moments import Moments, estimates, shifted, update
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler

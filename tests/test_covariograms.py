@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import exact_ball, flint
-from specrate.numerics.covariograms import (
+from specrate.numerics.exact_variances.covariograms import (
     Covariogram,
     at_zero,
     scale,

@@ -5,9 +5,9 @@ from math import log
 
 import pytest
 from mpmath import mp
-from specrate.numerics.crossovers import crossovers, region_constants
+from specrate.numerics.exact_variances.crossovers import crossovers, region_constants
+from specrate.numerics.exact_variances.variances import exact_variance
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.variances import exact_variance
 from specrate.theory.orders import Order
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.symbolic import Integer, Rational

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.densities import density_array, density_of, expanded, sinc2_deficit
+from specrate.numerics.equation17.densities import (
+    density_array,
+    density_of,
+    expanded,
+    sinc2_deficit,
+)
+from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.spectra import scaled_power
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

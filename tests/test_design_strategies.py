@@ -3,7 +3,12 @@
 import pytest
 from hypothesis import HealthCheck, Phase, find, given, settings
 from hypothesis import strategies as st
-from specrate.numerics.design_strategies import NamedSampler, counts, integrands, layouts
+from specrate.numerics.falsification.design_strategies import (
+    NamedSampler,
+    counts,
+    integrands,
+    layouts,
+)
 from specrate.numerics.integrands.grammar import CATALOGUE, parse_integrand
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import FAMILIES, FURTHER_FAMILIES, parse_sampler

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from specrate.numerics.designs import (
+from specrate.numerics.checking.designs import (
     all_frequencies,
     all_integrands,
     candidates,
@@ -14,7 +14,7 @@ from specrate.numerics.designs import (
     ladder,
     rate_probes,
 )
-from specrate.numerics.realisations import SamplerFault
+from specrate.numerics.point_sources.realisations import SamplerFault
 from specrate.theory.claims import parse_claim
 from specrate.theory.errors import InputError
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.axis_integrals import AxisProblem, solve_axis
 from specrate.numerics.balls import certified, exact_ball, flint
-from specrate.numerics.direction_integrals import direction_deficit
-from specrate.numerics.space_integrands import SpaceBall
+from specrate.numerics.equation17.axis_integrals import AxisProblem, solve_axis
+from specrate.numerics.equation17.direction_integrals import direction_deficit
+from specrate.numerics.equation17.space_integrands import SpaceBall
 
 F = Fraction
 

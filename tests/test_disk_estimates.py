@@ -5,11 +5,11 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specrate.numerics.covariogram_variances import ball_variance
-from specrate.numerics.disk_estimates import by_mpmath, by_scipy
+from specrate.numerics.exact_variances.covariogram_variances import ball_variance
 from specrate.numerics.integrands.ball import Ball
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.stress import Outcome, is_honest, relative_errors
+from specrate.numerics.method_tests.disk_estimates import by_mpmath, by_scipy
+from specrate.numerics.method_tests.stress import Outcome, is_honest, relative_errors
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import exact_ball, flint
-from specrate.numerics.distance_moments import log_moment, moments
+from specrate.numerics.exact_variances.distance_moments import log_moment, moments
 
 widths_of = {
     e: st.lists(st.fractions(Fraction(1, 50), 2, max_denominator=60), min_size=e, max_size=e)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from ladders import SIZES, multi_jitter_disk, points
 from scipy import special
-from specrate.numerics.drift import DELTAS, _largest_rise, _least_chi2, drift_test
-from specrate.numerics.slopes import RatePoint, ladder_of
+from specrate.numerics.measuring.drift import DELTAS, _largest_rise, _least_chi2, drift_test
+from specrate.numerics.measuring.slopes import RatePoint, ladder_of
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 

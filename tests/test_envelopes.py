@@ -11,7 +11,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from specrate.numerics.envelopes import envelope, profile_values
+from specrate.numerics.expected_spectra.envelopes import envelope, profile_values
 from specrate.theory.errors import InputError
 from specrate.theory.profiles import SaturatingMonomial
 from specrate.theory.rates import profile_of

@@ -6,8 +6,8 @@ from itertools import combinations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.expected_spectra.spectra import counts_by_growth, scaled_power
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.spectra import counts_by_growth, scaled_power
 from specrate.theory.combs import combs_of
 from specrate.theory.expansions import FULL, Powers, expand
 from specrate.theory.regions import region_of_support, regions

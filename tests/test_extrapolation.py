@@ -4,7 +4,7 @@ import random
 from math import comb
 
 import pytest
-from specrate.numerics.extrapolation import LEAST, extrapolated
+from specrate.numerics.exact_variances.extrapolation import LEAST, extrapolated
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.errors import InputError
 

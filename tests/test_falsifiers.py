@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.exact_falsifiers import common_counts, falsify_exactly
-from specrate.numerics.falsifiers import falsify
-from specrate.numerics.low_frequencies import (
+from specrate.numerics.exact_variances.variances import exact_variance
+from specrate.numerics.expected_spectra.spectra import power_array
+from specrate.numerics.falsification.exact_falsifiers import common_counts, falsify_exactly
+from specrate.numerics.falsification.falsifiers import falsify
+from specrate.numerics.falsification.low_frequencies import (
     canonical,
     low_frequencies,
     simplicity,
     worst_ridges,
 )
-from specrate.numerics.searches import CONFIRMATIONS, LEVEL
-from specrate.numerics.spectra import power_array
-from specrate.numerics.variances import exact_variance
+from specrate.numerics.falsification.searches import CONFIRMATIONS, LEVEL
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

@@ -4,8 +4,8 @@ import json
 from importlib.resources import files
 
 import pytest
-from specrate.numerics.fault_kinds import REMEDIES, Fault, fault_of
-from specrate.numerics.realisations import SamplerFault
+from specrate.numerics.point_sources.fault_kinds import REMEDIES, Fault, fault_of
+from specrate.numerics.point_sources.realisations import SamplerFault
 
 
 def test_the_schema_lists_the_kinds() -> None:

@@ -8,8 +8,8 @@ docstring says more.
 import numpy as np
 import pytest
 from point_sets import CORRECT, independent
-from specrate.numerics.faults import find_faults
-from specrate.numerics.probes import amplitudes, frequencies
+from specrate.numerics.checking.faults import find_faults
+from specrate.numerics.measuring.probes import amplitudes, frequencies
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 

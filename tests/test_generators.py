@@ -10,12 +10,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.numerics.generators import generate
 from specrate.numerics.generators.cloaked import log_stable
 from specrate.numerics.generators.unitary_phases import unitary_phases, verblunsky
-from specrate.numerics.moments import Moments, update, variance_interval
-from specrate.numerics.probes import amplitudes, frequencies, strata_of_claim
-from specrate.numerics.spectra import power_array
+from specrate.numerics.measuring.moments import Moments, update, variance_interval
+from specrate.numerics.measuring.probes import amplitudes, frequencies, strata_of_claim
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler

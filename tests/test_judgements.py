@@ -1,13 +1,19 @@
 """Judgements: what is judged, on which realisations, and what budget would decide."""
 
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource
-from specrate.numerics.child_processes import Limits
-from specrate.numerics.designs import all_frequencies, all_integrands, design
-from specrate.numerics.judgements import State, judgements, matching, rate_points, seconds_needed
-from specrate.numerics.measurements import Measurement, grow
-from specrate.numerics.probes import probe
-from specrate.numerics.verdicts import spectrum_predictions, variance_predictions
+from specrate.numerics.checking.designs import all_frequencies, all_integrands, design
+from specrate.numerics.checking.judgements import (
+    State,
+    judgements,
+    matching,
+    rate_points,
+    seconds_needed,
+)
+from specrate.numerics.checking.verdicts import spectrum_predictions, variance_predictions
+from specrate.numerics.measuring.measurements import Measurement, grow
+from specrate.numerics.measuring.probes import probe
+from specrate.numerics.point_sources.catalogue_source import CatalogueSource
+from specrate.numerics.point_sources.child_processes import Limits
 from specrate.theory.samplers import parse_sampler
 
 

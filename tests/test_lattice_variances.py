@@ -7,18 +7,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import exact_ball, flint
-from specrate.numerics.integrands.ball import Ball
-from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.lattice_variances import (
+from specrate.numerics.exact_variances.lattice_variances import (
     BESSEL_ROUNDING,
     POWER_ROUNDING,
     ROUNDING,
     envelope,
     lattice_variance,
 )
-from specrate.numerics.product_variances import product_variance
-from specrate.numerics.spectra import power_array
-from specrate.numerics.spectrum_balls import scaled_power_ball
+from specrate.numerics.exact_variances.product_variances import product_variance
+from specrate.numerics.expected_spectra.spectra import power_array
+from specrate.numerics.expected_spectra.spectrum_balls import scaled_power_ball
+from specrate.numerics.integrands.ball import Ball
+from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 from strategies import catalogue_samplers

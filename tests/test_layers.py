@@ -4,6 +4,7 @@ import ast
 import doctest
 import importlib
 import pkgutil
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -84,3 +85,15 @@ def modules() -> list[str]:
 def test_doctests(name):
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
+
+
+def test_the_folders_of_the_numerics_have_no_cycle():
+    """Each folder knows only those before it; the order is what the imports say."""
+    known: dict[str, set[str]] = {}
+    for path in (ROOT / "numerics").glob("*/*.py"):
+        used = {
+            name.split(".")[2] for name in imported(path) if name.startswith("specrate.numerics.")
+        }
+        folders = {name for name in used if (ROOT / "numerics" / name).is_dir()}
+        known.setdefault(path.parent.name, set()).update(folders - {path.parent.name})
+    assert len(list(TopologicalSorter(known).static_order())) == len(known) >= 10

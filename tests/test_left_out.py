@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 from specrate.numerics import check
-from specrate.numerics.check_documents import document
-from specrate.numerics.checks import Execution, Step, run_check
-from specrate.numerics.pointfiles import write_text
+from specrate.numerics.checking.check_documents import document
+from specrate.numerics.checking.checks import Execution, Step, run_check
+from specrate.numerics.point_sources.pointfiles import write_text
 from specrate.numerics.streams import stream
 
 

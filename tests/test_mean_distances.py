@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, exact_ball
-from specrate.numerics.constant_balls import constant_ball, mean_distance_ball
+from specrate.numerics.exact_variances.constant_balls import constant_ball, mean_distance_ball
 from specrate.theory.mean_distances import mean_distance, sides_of
 from specrate.theory.symbolic import Integer, Rational, sympy
 

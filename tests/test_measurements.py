@@ -2,9 +2,7 @@
 
 import numpy as np
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource, open_source
-from specrate.numerics.child_processes import OutOfTime
-from specrate.numerics.measurements import (
+from specrate.numerics.measuring.measurements import (
     Measurement,
     grow,
     homogenise,
@@ -13,10 +11,12 @@ from specrate.numerics.measurements import (
     power_interval,
     scaled,
 )
-from specrate.numerics.moments import Interval
-from specrate.numerics.probes import amplitudes, probe
-from specrate.numerics.realisations import SamplerFault
-from specrate.numerics.sources import CallableSource
+from specrate.numerics.measuring.moments import Interval
+from specrate.numerics.measuring.probes import amplitudes, probe
+from specrate.numerics.point_sources.catalogue_source import CatalogueSource, open_source
+from specrate.numerics.point_sources.child_processes import OutOfTime
+from specrate.numerics.point_sources.realisations import SamplerFault
+from specrate.numerics.point_sources.sources import CallableSource
 from specrate.numerics.streams import stream
 from specrate.theory.samplers import parse_sampler
 

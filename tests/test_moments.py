@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import special
 from specrate.numerics.integrands import parse_integrand
-from specrate.numerics.moments import (
+from specrate.numerics.measuring.moments import (
     Moments,
     estimates,
     merge,
@@ -103,7 +103,7 @@ def test_estimates_in_blocks(monkeypatch):
     f = parse_integrand("gaussian", 1)
     points = stream(5).random((7, 5, 1))
     whole = estimates(f, points)
-    monkeypatch.setattr("specrate.numerics.moments._BLOCK", 12)
+    monkeypatch.setattr("specrate.numerics.measuring.moments._BLOCK", 12)
     np.testing.assert_array_equal(estimates(f, points), whole)
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, exact_ball, flint
-from specrate.numerics.oscillating_integrals import ball_axis_integral
+from specrate.numerics.equation17.oscillating_integrals import ball_axis_integral
 
 F = Fraction
 ratios = st.fractions(F(1, 50), F(5), max_denominator=60)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy import stats
 from scipy.special import gammainccinv, gammaincinv
-from specrate.numerics.catalogue_source import CatalogueSource
-from specrate.numerics.periodograms import (
+from specrate.numerics.expected_spectra.spectra import power_array
+from specrate.numerics.measuring.periodograms import (
     ACCURACY,
     Box,
     PeriodogramSums,
@@ -13,8 +13,8 @@ from specrate.numerics.periodograms import (
     average_periodogram,
     averaged,
 )
-from specrate.numerics.probes import amplitudes
-from specrate.numerics.spectra import power_array
+from specrate.numerics.measuring.probes import amplitudes
+from specrate.numerics.point_sources.catalogue_source import CatalogueSource
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from specrate.numerics.spectra import power_array
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.theory.decays import parse_decay
 from specrate.theory.plateaus import plateau
 from specrate.theory.rates import region_rates, saturated

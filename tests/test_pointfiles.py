@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
-from specrate.numerics.pointfiles import POINT_SUFFIXES, read_points, write_text
+from specrate.numerics.point_sources.pointfiles import POINT_SUFFIXES, read_points, write_text
 from specrate.theory.errors import InputError
 
 MAGIC = 0x214B5455

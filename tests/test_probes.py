@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from specrate.numerics.probes import (
+from specrate.numerics.measuring.probes import (
     amplitudes,
     frequencies,
     integrand_supports,

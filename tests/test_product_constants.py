@@ -6,9 +6,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, exact_ball
-from specrate.numerics.constant_balls import constant_ball
+from specrate.numerics.exact_variances.constant_balls import constant_ball
+from specrate.numerics.exact_variances.variances import exact_variance
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.variances import exact_variance
 from specrate.theory.axis_powers import (
     IGNORED,
     AxisPower,

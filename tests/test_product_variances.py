@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import flint, rational
+from specrate.numerics.exact_variances.product_variances import product_variance
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.product_variances import product_variance
-from specrate.numerics.spectra import power_array
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.symbolic import Rational, sympy
 from strategies import catalogue_names

@@ -13,9 +13,9 @@ the quotient is E(x) to well within the tolerance.
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from specrate.numerics.envelopes import envelope
+from specrate.numerics.expected_spectra.envelopes import envelope
+from specrate.numerics.expected_spectra.spectra import counts_by_growth, scaled_power
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.spectra import counts_by_growth, scaled_power
 from specrate.theory.combs import Comb
 from specrate.theory.expansions import Powers, Series, SeriesTerm
 from specrate.theory.orders import Order

@@ -6,9 +6,15 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from specrate.numerics.equation17.radial_estimates import (
+    FINEST,
+    Estimate,
+    by_doubles,
+    by_mpmath,
+    by_scipy,
+)
+from specrate.numerics.equation17.radial_integrals import RadialProblem, solve
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.radial_estimates import FINEST, Estimate, by_doubles, by_mpmath, by_scipy
-from specrate.numerics.radial_integrals import RadialProblem, solve
 from specrate.theory.errors import InputError
 
 F = Fraction

@@ -6,9 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from specrate.numerics import radial
+from specrate.numerics.balls import exact_number
+from specrate.numerics.equation17.radial_estimates import by_mpmath
+from specrate.numerics.equation17.radial_integrals import RadialProblem, solve
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.radial_estimates import by_mpmath
-from specrate.numerics.radial_integrals import RadialProblem, exact_number, solve
 from specrate.theory.errors import InputError
 
 F = Fraction

@@ -3,9 +3,9 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.exact_variances.variances import exact_variance
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.variances import exact_variance
 from specrate.theory.decays import parse_decay
 from specrate.theory.dominance import Case, dominates
 from specrate.theory.errors import UndecidedSign

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.readings import (
+from specrate.numerics.equation17.readings import (
     INTEGRANDS,
     SAMPLERS,
     axis_row,
@@ -15,8 +14,9 @@ from specrate.numerics.readings import (
     reading,
     tables,
 )
-from specrate.numerics.space_integrands import SpaceGaussian
-from specrate.numerics.variances import exact_variance
+from specrate.numerics.equation17.space_integrands import SpaceGaussian
+from specrate.numerics.exact_variances.variances import exact_variance
+from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.theory.samplers import parse_sampler
 
 PAGE = Path(__file__).parents[1] / "docs" / "equation17.md"

@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.realisations import SamplerFault, checked, nearby_powers, not_honoured
+from specrate.numerics.point_sources.realisations import (
+    SamplerFault,
+    checked,
+    nearby_powers,
+    not_honoured,
+)
 
 
 def test_integers_and_lists_are_read_as_doubles() -> None:

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import flint, rational
+from specrate.numerics.exact_variances.product_variances import product_variance
+from specrate.numerics.exact_variances.ridge_variances import ridge_variance
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.numerics.integrands.ridge import Ridge
 from specrate.numerics.integrands.spline import cosine_sum
-from specrate.numerics.product_variances import product_variance
-from specrate.numerics.ridge_variances import ridge_variance
-from specrate.numerics.spectra import power_array
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 from strategies import catalogue_names

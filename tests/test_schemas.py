@@ -10,9 +10,9 @@ import jsonschema
 import pytest
 from specrate.numerics import check
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.radial_cases import RADIAL
-from specrate.numerics.stress import Family, Method, Outcome, stress
-from specrate.numerics.work_precision import work_precision
+from specrate.numerics.method_tests.radial_cases import RADIAL
+from specrate.numerics.method_tests.stress import Family, Method, Outcome, stress
+from specrate.numerics.method_tests.work_precision import work_precision
 from specrate.report.cli import main
 from specrate.theory.errors import InputError
 

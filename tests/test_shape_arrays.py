@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import exact_ball, flint
-from specrate.numerics.shape_arrays import shape_arrays
-from specrate.numerics.shape_values import shape_ball
+from specrate.numerics.expected_spectra.shape_arrays import shape_arrays
+from specrate.numerics.expected_spectra.shape_values import shape_ball
 from specrate.theory.shapes import DIFFERENCE, SINC2, TENT, stretched
 
 betas = st.fractions(Fraction(1, 8), 2, max_denominator=8)

@@ -6,15 +6,15 @@ from math import log
 import numpy as np
 import pytest
 from specrate.numerics.balls import exact_ball, flint
+from specrate.numerics.exact_variances.variances import exact_variance
+from specrate.numerics.expected_spectra.shape_arrays import shape_arrays
+from specrate.numerics.expected_spectra.shape_sums import shape_sum
 from specrate.numerics.integrands.bernoulli import bernoulli_factor
 from specrate.numerics.integrands.box import interval
 from specrate.numerics.integrands.gaussian import GaussianFactor
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.numerics.integrands.polylog import PolylogFactor
 from specrate.numerics.integrands.spline import SplineFactor
-from specrate.numerics.shape_arrays import shape_arrays
-from specrate.numerics.shape_sums import shape_sum
-from specrate.numerics.variances import exact_variance
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.shapes import DIFFERENCE, SINC2, TENT, stretched

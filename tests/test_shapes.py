@@ -6,8 +6,8 @@ from itertools import pairwise
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.expected_spectra.shape_values import shape_value
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.shape_values import shape_value
 from specrate.theory.shapes import DIFFERENCE, SINC2, TENT, series, stretched
 
 betas = st.fractions(Fraction(1, 8), 2, max_denominator=8)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from ladders import MULTI_JITTER_DISK, SIZES, multi_jitter_disk, points
 from scipy import special
-from specrate.numerics.slopes import RatePoint, fit_slope
+from specrate.numerics.measuring.slopes import RatePoint, fit_slope
 from specrate.numerics.streams import stream
 from specrate.theory.errors import InputError
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics.pointfiles import write_text
-from specrate.numerics.realisations import SamplerFault
-from specrate.numerics.sources import (
+from specrate.numerics.point_sources.pointfiles import write_text
+from specrate.numerics.point_sources.realisations import SamplerFault
+from specrate.numerics.point_sources.sources import (
     CallableSource,
     EngineSource,
     FileSource,
@@ -196,7 +196,7 @@ def test_dimension_must_be_positive(dim: int) -> None:
 def test_neither_scipy_nor_sympy_for_a_plain_callable() -> None:
     """Else every child process that draws points would pay for them."""
     code = (
-        "import sys; from specrate.numerics.sources import load_source; "
+        "import sys; from specrate.numerics.point_sources.sources import load_source; "
         "load_source(['neighbour:points'], 2); sys.exit(len({'scipy', 'sympy'} & {*sys.modules}))"
     )
     subprocess.run([sys.executable, "-P", "-c", code], check=True)

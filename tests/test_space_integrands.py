@@ -3,8 +3,8 @@
 from fractions import Fraction
 
 import pytest
+from specrate.numerics.equation17.space_integrands import SpaceBall, SpaceGaussian, on_space
 from specrate.numerics.integrands.grammar import parse_integrand
-from specrate.numerics.space_integrands import SpaceBall, SpaceGaussian, on_space
 from specrate.theory.errors import InputError
 
 F = Fraction

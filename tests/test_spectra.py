@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.spectra import (
+from specrate.numerics.expected_spectra.spectra import (
     counts_by_growth,
     element_value,
     power_array,
     scaled_power,
     support_counts,
 )
+from specrate.numerics.integrands.protocol import mp
 from specrate.theory.kernels import Alphabet
 from specrate.theory.samplers import parse_sampler
 from strategies import every_sampler, frequencies

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, exact_ball
-from specrate.numerics.spectra import power_array
-from specrate.numerics.spectrum_balls import scaled_power_ball
+from specrate.numerics.expected_spectra.spectra import power_array
+from specrate.numerics.expected_spectra.spectrum_balls import scaled_power_ball
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 from strategies import block_samplers, catalogue_samplers, shaped_samplers

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, flint
+from specrate.numerics.expected_spectra.spectra import element_value, scaled_power
+from specrate.numerics.expected_spectra.spectrum_balls import element_ball, scaled_power_ball
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.spectra import element_value, scaled_power
-from specrate.numerics.spectrum_balls import element_ball, scaled_power_ball
 from specrate.theory.kernels import Alphabet
 from specrate.theory.samplers import parse_sampler
 from strategies import every_sampler, frequencies

@@ -6,8 +6,8 @@ from math import prod
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.spectra import support_counts
-from specrate.numerics.spectrum_forms import (
+from specrate.numerics.expected_spectra.spectra import support_counts
+from specrate.numerics.expected_spectra.spectrum_forms import (
     Interpolation,
     Variable,
     element_fraction,

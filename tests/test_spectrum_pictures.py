@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.moments import Interval
-from specrate.numerics.periodograms import Box, average_periodogram
-from specrate.numerics.spectrum_pictures import (
+from specrate.numerics.measuring.moments import Interval
+from specrate.numerics.measuring.periodograms import Box, average_periodogram
+from specrate.numerics.measuring.spectrum_pictures import (
     FittedMonomial,
     PlaneSpectrum,
     RegionSpectrum,

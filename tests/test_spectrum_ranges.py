@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from specrate.numerics.spectra import power_array
-from specrate.numerics.spectrum_ranges import outside_ranges
+from specrate.numerics.expected_spectra.spectra import power_array
+from specrate.numerics.expected_spectra.spectrum_ranges import outside_ranges
 from specrate.theory.errors import InputError
 from specrate.theory.kernels import Alphabet
 from specrate.theory.layouts import Layout, grouped

@@ -200,7 +200,7 @@ def test_text_evaluates_to_the_spectrum(data: st.DataObject) -> None:
 def kernel_value(sampler: Sampler, frequency: tuple[int, ...], counts: Mapping[str, int]) -> float:
     """N·P_S from the numerical room."""
     import numpy as np
-    from specrate.numerics.spectra import power_array
+    from specrate.numerics.expected_spectra.spectra import power_array
 
     values = power_array(sampler, counts, np.array([frequency], dtype=np.int64))
     return counts["N"] * float(values[0])

@@ -5,15 +5,15 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specrate.numerics.densities import density_of
-from specrate.numerics.space_integrands import SpaceBall, SpaceGaussian
-from specrate.numerics.sphere_integrals import (
+from specrate.numerics.equation17.densities import density_of
+from specrate.numerics.equation17.space_integrands import SpaceBall, SpaceGaussian
+from specrate.numerics.equation17.sphere_integrals import (
     ball_directions,
     ball_shells,
     gaussian_directions,
     gaussian_shells,
 )
-from specrate.numerics.whole_integrals import whole_integral
+from specrate.numerics.equation17.whole_integrals import whole_integral
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

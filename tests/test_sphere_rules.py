@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.densities import density_of, expanded
-from specrate.numerics.sphere_rules import (
+from specrate.numerics.equation17.densities import density_of, expanded
+from specrate.numerics.equation17.sphere_rules import (
     refined,
     require_nodes,
     shell_mean,

@@ -5,13 +5,14 @@ from math import inf, nan, pi, prod, sin
 from typing import Any
 
 import pytest
-from specrate.numerics import stress_cases, variances
 from specrate.numerics.balls import flint
-from specrate.numerics.crossovers import crossovers
+from specrate.numerics.exact_variances import variances
+from specrate.numerics.exact_variances.crossovers import crossovers
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.radial_cases import RADIAL
-from specrate.numerics.spectrum_cases import SPECTRA
-from specrate.numerics.stress import (
+from specrate.numerics.method_tests import stress_cases
+from specrate.numerics.method_tests.radial_cases import RADIAL
+from specrate.numerics.method_tests.spectrum_cases import SPECTRA
+from specrate.numerics.method_tests.stress import (
     Family,
     Method,
     Outcome,
@@ -20,7 +21,7 @@ from specrate.numerics.stress import (
     relative_errors,
     stress,
 )
-from specrate.numerics.variance_cases import VARIANCES
+from specrate.numerics.method_tests.variance_cases import VARIANCES
 from specrate.report.cli import main
 from specrate.theory.errors import InputError
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from latex import check_structure, compile_where_possible
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.radial_cases import RADIAL
-from specrate.numerics.spectrum_cases import SPECTRA
-from specrate.numerics.stress import Family, Method, Outcome, stress
+from specrate.numerics.method_tests.radial_cases import RADIAL
+from specrate.numerics.method_tests.spectrum_cases import SPECTRA
+from specrate.numerics.method_tests.stress import Family, Method, Outcome, stress
 from specrate.report.stress_formats import render
 from specrate.theory.errors import InputError
 

@@ -4,8 +4,8 @@ from math import pi, sqrt
 
 import pytest
 from specrate.numerics.integrands.grammar import CATALOGUE, parse_integrand
+from specrate.numerics.measuring.tails import is_resolved, is_seen, kurtosis, resolution
 from specrate.numerics.streams import stream
-from specrate.numerics.tails import is_resolved, is_seen, kurtosis, resolution
 
 
 def of(text, dim=2):

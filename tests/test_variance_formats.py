@@ -10,7 +10,7 @@ import pytest
 from latex import check_structure, compile_where_possible
 from specrate.numerics import variance
 from specrate.numerics.balls import Certified
-from specrate.numerics.variances import VarianceResult
+from specrate.numerics.exact_variances.variances import VarianceResult
 from specrate.report.variance_formats import render, shortfall
 
 FOUND = VarianceResult(

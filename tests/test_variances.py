@@ -9,14 +9,14 @@ import specrate.numerics
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from mpmath import mp
+from specrate.numerics.exact_variances.variances import exact_variance, variance
+from specrate.numerics.expected_spectra.spectra import power_array
 from specrate.numerics.generators import generate
 from specrate.numerics.integrands.ball import Ball
 from specrate.numerics.integrands.bernoulli import bernoulli
 from specrate.numerics.integrands.grammar import CATALOGUE, parse_integrand
-from specrate.numerics.moments import Moments, estimates, shifted, update
-from specrate.numerics.spectra import power_array
+from specrate.numerics.measuring.moments import Moments, estimates, shifted, update
 from specrate.numerics.streams import stream
-from specrate.numerics.variances import exact_variance, variance
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 

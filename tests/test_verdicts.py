@@ -4,16 +4,11 @@ from dataclasses import replace
 from math import inf
 
 import pytest
-from specrate.numerics.catalogue_source import CatalogueSource
-from specrate.numerics.checks import _MOST, _bias_level, run_check
-from specrate.numerics.checks import LOOKS as CHECK_LOOKS
-from specrate.numerics.faults import COINCIDENCE_LEVEL
-from specrate.numerics.judgements import FIRST
-from specrate.numerics.measurements import Measurement, grow
-from specrate.numerics.moments import Interval, Moments, update
-from specrate.numerics.probes import probe
-from specrate.numerics.spectra import scaled_power
-from specrate.numerics.verdicts import (
+from specrate.numerics.checking.checks import _MOST, _bias_level, run_check
+from specrate.numerics.checking.checks import LOOKS as CHECK_LOOKS
+from specrate.numerics.checking.faults import COINCIDENCE_LEVEL
+from specrate.numerics.checking.judgements import FIRST
+from specrate.numerics.checking.verdicts import (
     ENOUGH,
     FALSE_ALARM,
     LEAST,
@@ -27,6 +22,11 @@ from specrate.numerics.verdicts import (
     spectrum_predictions,
     variance_predictions,
 )
+from specrate.numerics.expected_spectra.spectra import scaled_power
+from specrate.numerics.measuring.measurements import Measurement, grow
+from specrate.numerics.measuring.moments import Interval, Moments, update
+from specrate.numerics.measuring.probes import probe
+from specrate.numerics.point_sources.catalogue_source import CatalogueSource
 from specrate.theory.samplers import parse_sampler
 
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specrate.numerics.axis_integrals import AxisProblem, solve_axis
 from specrate.numerics.balls import flint
+from specrate.numerics.equation17.axis_integrals import AxisProblem, solve_axis
+from specrate.numerics.equation17.space_integrands import SpaceBall, SpaceGaussian, on_space
+from specrate.numerics.equation17.whole_integrals import CERTIFIED, erf_deficit, whole_integral
+from specrate.numerics.exact_variances.variances import exact_variance
 from specrate.numerics.integrands.grammar import parse_integrand
 from specrate.numerics.integrands.protocol import mp
-from specrate.numerics.space_integrands import SpaceBall, SpaceGaussian, on_space
-from specrate.numerics.variances import exact_variance
-from specrate.numerics.whole_integrals import CERTIFIED, erf_deficit, whole_integral
 from specrate.theory.errors import InputError
 from specrate.theory.samplers import parse_sampler
 
@@ -93,8 +93,8 @@ def test_narrow_gaussian_under_jitter_is_the_torus_sum(name, text):
 @pytest.mark.parametrize("name", ["latin-hypercube", "multi-jitter", "correlated-multi-jitter"])
 def test_others_differ_by_what_the_kernel_has_on_null_sets(name):
     """Torus = integral − S(0)|Ff(0)|² + Σ (N P_S − S)|Ff|², the sum over axes and teeth by hand."""
-    from specrate.numerics.densities import density_array, density_of, expanded
-    from specrate.numerics.spectra import power_array
+    from specrate.numerics.equation17.densities import density_array, density_of, expanded
+    from specrate.numerics.expected_spectra.spectra import power_array
 
     sampler, f = parse_sampler(name, 2), parse_integrand("gaussian:sigma=1/15", 2)
     counts = sampler.counts_at(16)

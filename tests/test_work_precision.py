@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from specrate.numerics.moments import Interval
-from specrate.numerics.stress import Outcome, is_honest, relative_errors
-from specrate.numerics.work_precision import work_precision
-from specrate.numerics.work_precision_ladders import (
+from specrate.numerics.measuring.moments import Interval
+from specrate.numerics.method_tests.stress import Outcome, is_honest, relative_errors
+from specrate.numerics.method_tests.work_precision import work_precision
+from specrate.numerics.method_tests.work_precision_ladders import (
     DISK,
     EQ_17,
     PROBLEMS,

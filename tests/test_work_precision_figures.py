@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from specrate.numerics.work_precision_ladders import PROBLEMS, ladders
+from specrate.numerics.method_tests.work_precision_ladders import PROBLEMS, ladders
 from specrate.report import work_precision_figures
 
 Document = dict[str, Any]

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 from latex import check_structure, compile_where_possible
-from specrate.numerics.work_precision import work_precision
-from specrate.numerics.work_precision_ladders import ladders
+from specrate.numerics.method_tests.work_precision import work_precision
+from specrate.numerics.method_tests.work_precision_ladders import ladders
 from specrate.report.work_precision_formats import render
 
 Document = dict[str, Any]

@@ -1,0 +1,1 @@
+"""The verdict on a design: faults, claims, evidence, and what was left out."""

@@ -1,0 +1,1 @@
+"""Expected power spectra as numbers: the kernels of the theory room, evaluated."""

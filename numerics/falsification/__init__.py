@@ -1,0 +1,1 @@
+"""Searches for the simplest witness against a claim, and strategies of designs."""

@@ -1,0 +1,1 @@
+"""Profiles fitted to measured spectra: degree, effective exponent, plateau, cut-off."""

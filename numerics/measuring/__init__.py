@@ -1,0 +1,1 @@
+"""What is measured on point sets: moments, spectra, slopes."""

@@ -1,0 +1,1 @@
+"""Where point sets come from: the catalogue, callables and commands in child processes, files."""
