@@ -22,6 +22,9 @@ flint: Any = _flint
 Ball: TypeAlias = Any
 """A real ball, ``flint.arb``. The square of one that may hold 0 is x * x: x**2 gives nan."""
 
+Rational: TypeAlias = Any
+"""An exact rational number, ``flint.fmpq``."""
+
 _MOST_BITS = 1 << 20
 _NUMBER = re.compile(
     r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"

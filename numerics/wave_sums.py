@@ -23,8 +23,7 @@ from fractions import Fraction
 from math import log
 from typing import Any, TypeAlias
 
-from .balls import Ball, exact_ball, flint
-from .expected_spectra.coefficients import Rational
+from .balls import Ball, Rational, exact_ball, flint
 
 Complex: TypeAlias = Any
 """A complex ball, ``flint.acb``."""

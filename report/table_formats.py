@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
@@ -16,7 +17,7 @@ from ..theory.spelling import (
     order_latex,
     order_text,
 )
-from ..theory.symbolic import Expr
+from ..theory.symbolic import Expr, sympy
 from ..theory.tables import Row, Table, document, parse_dim, table
 from .grids import (
     PREAMBLE,
@@ -34,7 +35,8 @@ Document = dict[str, Any]
 _HEAD = ("sampler", "d", "integrand", "region", "variance", "decides")
 _LATEX_HEAD = ("Variance", "Overall")
 _NAMES_IN_A_ROW = 6  # supports that are listed; of more the first and the last
-_DIGITS = 15  # of constants
+_DIGITS = 15  # of constants in documents
+_SHOWN_DIGITS = 6
 _LINE = 50  # letters, roughly, of a sum in a LaTeX table
 
 
@@ -46,7 +48,7 @@ def render(
     form: str,
 ) -> str:
     """The table in one of the formats of the command line."""
-    found = table(samplers, dims, integrands, primitive, constants=form in ("json", "csv"))
+    found = table(samplers, dims, integrands, primitive, constants=form != "latex")
     _check_parameters(integrands, dims)
     meetings = _crossovers(found, integrands) if primitive == "point" else []
     if form == "json":
@@ -58,10 +60,15 @@ def render(
     if form == "latex":
         return "\n".join([PREAMBLE, _latex(found), *_meetings_latex(meetings)])
     if form == "markdown":
-        cells = [_cells(r, mark, f"${order_latex(r.order)}$") for r, mark in _merged(found.rows)]
+        cells = [
+            _cells(r, mark, f"${_factor(r)}{order_latex(r.order)}$")
+            for r, mark in _merged(found.rows)
+        ]
         notes = "\n".join(f"- {line}" for line in _notes(found, meetings))
         return "\n\n".join([_title(found) + ".", markdown(_HEAD, cells), notes]).rstrip()
-    rows = [_cells(r, mark, order_text(r.order)) for r, mark in _merged(found.rows)]
+    rows = [
+        _cells(r, mark, f"{_factor(r)}{order_text(r.order)}") for r, mark in _merged(found.rows)
+    ]
     lines = [_title(found), "", aligned(_HEAD, without_repeats(rows, 3)), ""]
     return "\n".join(lines + _notes(found, meetings)).rstrip()
 
@@ -88,18 +95,24 @@ def _document(found: Table) -> Document:
     """The table's document with the constants that hold no symbol also as decimals."""
     whole: Any = document(found)
     for row, entry in zip(found.rows, whole["rows"], strict=True):
-        entry["constant_value"] = _decimal(row.constant)
+        entry["constant_value"] = _decimal(row.constant, _DIGITS)
     return whole
 
 
-def _decimal(constant: Expr | None) -> str | None:
-    """15 certified digits; numbers are loaded only where there is a constant."""
+def _decimal(constant: Expr | None, digits: int) -> str | None:
+    """Certified digits; numbers are loaded only where there is a constant."""
     if constant is None or constant.free_symbols:
         return None
     from ..numerics.balls import certified, spelled
     from ..numerics.exact_variances.constant_balls import constant_ball
 
-    return spelled(certified(lambda: constant_ball(constant), _DIGITS), _DIGITS).value
+    return spelled(certified(lambda: constant_ball(constant), digits), digits).value
+
+
+def _factor(row: Row) -> str:
+    """The constant before the order, to six digits; nothing where none is known."""
+    found = None if row.order.exponent is sympy.oo else _decimal(row.constant, _SHOWN_DIGITS)
+    return f"{found} " if found else ""
 
 
 def _csv(found: Table) -> str:
@@ -150,7 +163,7 @@ def _merged(rows: Sequence[Row]) -> Iterator[tuple[Row, str]]:
         if len(merged) == 1 and len(ends) == 1 and merged[0].order == ends[0].order:
             shared = merged[0].region == "every region"
             name = "overall, every region" if shared else f"overall, {merged[0].region} alone"
-            yield _row(merged[0], name, is_overall=True), ""
+            yield replace(merged[0], region=name, is_overall=True, dominated=False), ""
             continue
         for row in merged:
             decides = len(ends) == 1 and row.order == ends[0].order and not row.dominated
@@ -164,12 +177,14 @@ def _merged_regions(rows: list[Row]) -> Iterator[Row]:
     for _, same in groupby(inner, key=lambda r: r.order):
         members = list(same)
         dominated = all(r.dominated for r in members)
-        yield _row(members[0], _joint_name(members, len(inner)), dominated=dominated)
-
-
-def _row(like: Row, region: str, dominated: bool = False, is_overall: bool = False) -> Row:
-    head = (like.sampler, like.dim, like.primitive, like.integrand)
-    return Row(*head, region, like.order, None, is_overall, dominated)
+        constants = [r.constant for r in members if r.constant is not None]
+        yield replace(
+            members[0],
+            region=_joint_name(members, len(inner)),
+            constant=sympy.Add(*constants) if len(constants) == len(members) else None,
+            condition=None,
+            dominated=dominated,
+        )
 
 
 def _joint_name(members: Sequence[Row], regions: int) -> str:
@@ -208,7 +223,8 @@ def _cells(row: Row, mark: str, order: str) -> tuple[str, ...]:
 def _title(found: Table) -> str:
     kind = found.rows[0].primitive
     placed = "points" if kind == "point" else f"parallel {kind}s"
-    return f"Variance of an estimate from N {placed}, leading order as N -> oo"
+    what = "term" if any(_factor(r) for r in found.rows) else "order"
+    return f"Variance of an estimate from N {placed}, leading {what} as N -> oo"
 
 
 def _notes(found: Table, meetings: Sequence[Document]) -> list[str]:

@@ -9,6 +9,7 @@ from .grids import PREAMBLE, booktabs, comma_separated, csv_cell, escaped, markd
 
 _HEAD = ("sampler", "integrand", "d", "N", "variance", "error at most", "method")
 _LONGEST_N = 12  # digits up to which N is written out in a table
+_APART = 20_000  # powers of ten: no mantissa has as many digits
 
 
 def render(found: VarianceResult, form: str) -> str:
@@ -41,13 +42,20 @@ def render(found: VarianceResult, form: str) -> str:
 
 def shortfall(found: VarianceResult, digits: int) -> str | None:
     """One line if fewer digits are certain than were asked for."""
-    bound, value = Fraction(found.value.error_bound), abs(Fraction(found.value.value))
-    if bound <= value * Fraction(10) ** (1 - digits):
+    (bound, low), (value, high) = map(_scientific, (found.value.error_bound, found.value.value))
+    apart = min(max(low - high, -_APART), _APART)
+    if bound * Fraction(10) ** apart <= value * Fraction(10) ** (1 - digits):
         return None
     return (
         f"{digits} digits were asked for, the method {found.method} gives "
         f"{found.value.value} with an error of at most {found.value.error_bound}"
     )
+
+
+def _scientific(text: str) -> tuple[Fraction, int]:
+    """Mantissa and exponent apart: the exponent of a variance may have billions of digits."""
+    mantissa, _, exponent = text.partition("e")
+    return abs(Fraction(mantissa)), int(exponent or 0)
 
 
 def _document(found: VarianceResult) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Constants of named integrands in tables: symbols for parameters, sums over regions, refusals."""
 
 import pytest
+from specrate.numerics import variance
 from specrate.numerics.balls import certified
 from specrate.numerics.exact_variances.asymptotics import measured_constant
 from specrate.numerics.exact_variances.constant_balls import constant_ball
@@ -164,3 +165,23 @@ def test_overall_constants_are_what_exact_variances_come_to(name, dim, integrand
         gap = abs(measured.value - mp.mpf(exact.mid().str(35, radius=False)))
         assert gap <= measured.error + abs(measured.value) * mp.mpf(10) ** -30
         assert gap <= 1e-12 * measured.value
+
+
+@pytest.mark.parametrize(
+    ("sampler", "side", "order"),
+    [
+        ("latin-hypercube", "(1/3,1)", 2),
+        ("latin-hypercube", "(1,1/2,1)", 2),
+        ("latin-hypercube", "(1/3,1/2,1)", 1),
+        ("multi-jitter", "(1/3,1)", 2),
+        ("jitter", "(1,1/3)", Rational(3, 2)),
+        ("uncorrelated-jitter:2+1", "(1/3,1/2,1)", Rational(3, 2)),
+    ],
+)
+def test_a_side_of_one_leaves_its_coordinate_out(sampler, side, order):
+    """The table's leading term against the exact variance at N = 1e24."""
+    dim, text = side.count(",") + 1, f"box:side={side}"
+    (overall,) = [r for r in table([sampler], [dim], [text], constants=True).rows if r.is_overall]
+    assert overall.order.exponent == order
+    exact = sympy.Float(variance(sampler, text, dim, "1e24").value.value)
+    assert abs(exact * sympy.Integer(10) ** (24 * order) / overall.constant - 1) < 1e-6

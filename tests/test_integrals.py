@@ -41,6 +41,7 @@ def test_latex_is_well_formed() -> None:
 def test_powers() -> None:
     assert [raised("rho", Integer(p)) for p in (1, 2, -2)] == ["rho", "rho^2", "rho^-2"]
     assert raised("rho", Rational(-5, 2)) == "rho^(-5/2)"
+    assert raised("rho", Rational(1, 2)) == "rho^(1/2)"
     assert raised("rho", D) == "rho^d"
     assert raised("rho", -D) == "rho^(-d)"
     assert [raised_latex(Integer(p)) for p in (0, 1, -2)] == ["", r"\rho", r"\rho^{-2}"]

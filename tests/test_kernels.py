@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.expected_spectra.spectra import element_value, power_array, scaled_power
+from specrate.numerics.expected_spectra.coefficients import element_value
+from specrate.numerics.expected_spectra.spectra import power_array, scaled_power
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.errors import InputError
 from specrate.theory.kernels import Alphabet, Atom, Kernel

@@ -11,6 +11,7 @@ from specrate.numerics.equation17.radial_estimates import by_mpmath
 from specrate.numerics.equation17.radial_integrals import RadialProblem, solve
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.errors import InputError
+from specrate.theory.symbolic import sympy
 
 F = Fraction
 small = st.fractions(F(1, 8), F(8), max_denominator=8)
@@ -154,3 +155,15 @@ def test_digits_have_a_range(digits):
 @given(st.fractions(-(10**9), 10**9, max_denominator=10**6))
 def test_numbers_are_read_exactly(number):
     assert exact_number(str(number), "x") == number
+
+
+@pytest.mark.parametrize("decay", ["5", "16/3"])
+@pytest.mark.parametrize("alpha", ["1/2", "13", "40"])
+def test_without_growth_the_leading_term_is_the_whole(alpha, decay):
+    """e = 0: ν stands still, below ρ0 or above it, also at b = q (p = 16/3) with its logarithm."""
+    numbers = {"effective": "0", "gamma": "0.3", "alpha": alpha, "rho0": "13", "digits": 30}
+    found = radial("7/3", 3, decay, "7", **numbers)
+    assert found.leading is not None
+    assert (found.leading.order.exponent, found.leading.order.log_power) == (1, 0)
+    difference = (found.leading.constant / 7).evalf(40) - sympy.Float(found.value.value, 40)
+    assert abs(difference) <= float(found.value.error_bound)

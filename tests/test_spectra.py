@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.expected_spectra.coefficients import element_value
 from specrate.numerics.expected_spectra.spectra import (
     counts_by_growth,
-    element_value,
     power_array,
     scaled_power,
     support_counts,

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.balls import certified, flint
-from specrate.numerics.expected_spectra.spectra import element_value, scaled_power
+from specrate.numerics.expected_spectra.coefficients import element_value
+from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.numerics.expected_spectra.spectrum_balls import element_ball, scaled_power_ball
 from specrate.numerics.integrands.protocol import mp
 from specrate.theory.kernels import Alphabet

@@ -6,11 +6,11 @@ from math import prod
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics.expected_spectra.coefficients import element_fraction
 from specrate.numerics.expected_spectra.spectra import support_counts
 from specrate.numerics.expected_spectra.spectrum_forms import (
     Interpolation,
     Variable,
-    element_fraction,
     spectrum_form,
 )
 from specrate.theory.samplers import parse_sampler

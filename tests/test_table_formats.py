@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -191,3 +192,14 @@ def test_constants_without_closed_form_are_decimals_too() -> None:
         assert word in rows[-1]["constant"]
         assert 0 < float(rows[-1]["constant_value"]) < 1
         assert len(rows[-1]["constant_value"].lstrip("0.")) == 15
+
+
+def test_a_named_integrand_shows_its_constant() -> None:
+    """Jitter on a smooth f has the leading term (π²/3)(2π)^-2 ∫|∇f|² N^-2 in 2D; here π/12."""
+    text = render(("jitter",), ("2",), ("gaussian:sigma=0.1",), "point", "terminal")
+    assert shown(text, "jitter", "gaussian:sigma=0.1") == [
+        ("overall, every region", "0.261799 N^-2", "")
+    ]
+    assert round(math.pi / 12, 6) == 0.261799
+    assert "leading term" in text
+    assert "leading order" in render(("jitter",), ("d",), BOTH, "point", "terminal")

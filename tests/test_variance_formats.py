@@ -93,3 +93,21 @@ def test_zero_is_no_shortfall() -> None:
     """A regular grid integrates a polynomial wave below its first alias without error."""
     assert shortfall(replace(FOUND, value=Certified("0", "0")), 15) is None
     assert shortfall(replace(FOUND, value=Certified("0", "1e-9")), 15) is not None
+
+
+@pytest.mark.parametrize(
+    ("value", "bound", "digits", "short"),
+    [
+        ("7.68385884307076e-42863147302", "3.23e-42863147317", 15, False),
+        ("7.68385884307076e-42863147302", "3.23e-42863147315", 15, True),
+        ("-1.5e-9", "1.5e-10", 2, False),
+        ("-1.5e-9", "1.6e-10", 2, True),
+        ("1.5e-9", "3e10000000000000", 2, True),
+        ("1.5", "3e-10000000000000", 4000, False),
+        ("0", "0", 15, False),
+        ("0", "1e-30", 15, True),
+    ],
+)
+def test_digits_that_lack_are_told_at_any_exponent(value, bound, digits, short):
+    found = replace(FOUND, value=Certified(value, bound))
+    assert (shortfall(found, digits) is not None) is short

@@ -125,7 +125,7 @@ def product_power(decay: Decay, dim: int) -> ProductPower | None:
             axes = (power_law(decay.number, Integer(1), Integer(0)), *(IGNORED,) * (dim - 1))
             return power_laws(decay.number, axes)
         case "box" | "half-space":
-            sides = per_axis(given, "side", "a", 1 if decay.axes else dim)
+            sides = per_axis(given, "side", "a", 1 if decay.family == "half-space" else dim)
             axes = (*map(interval, sides), *(IGNORED,) * (dim - len(sides)))
             return ProductPower(axes, Integer(1), Integer(0), Integer(2), oscillates=True)
         case "gaussian":

@@ -7,6 +7,7 @@ jump, so the worst case of a region is p = s + 1, q = 1, everywhere. The ball is
 its spectrum falls as ρ^-(d+1) on every support, q = d + 1 − s.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -39,7 +40,7 @@ class Decay:
         p of ``p=...`` and ``polylog``, the degree of the Bernoulli polynomials.
     axes : tuple of int
         The one support that carries the power of ``bernoulli``, ``half-space``, ``polylog`` and
-        ``ridge``.
+        ``ridge``; of ``box`` the coordinates with sides below 1, empty if all are alike.
     powers : tuple of (str, sympy.Expr)
         For ``per_region``: regions with their p.
     """
@@ -107,7 +108,7 @@ def parse_decay(text: str) -> Decay:
         raise InputError(f"{_RULE}: got {text!r}")
     if parameters and head in ("worst", "best"):
         raise InputError(f"{head} takes no parameter: got {text!r}")
-    return Decay(name, head)
+    return Decay(name, head, axes=_short_sides(parameters, text) if head == "box" else ())
 
 
 def _order_of(parameters: str, text: str, name: str = "k") -> int:
@@ -132,10 +133,8 @@ def _power_of(parameters: str, text: str) -> Expr:
 
 def _ridge_of(parameters: str, text: str) -> tuple[int, ...]:
     """The support of the direction k of a ridge, 1-based; all of (1,1) unless told."""
-    if "k=" not in parameters:
-        return (1, 2)
-    numbers = parameters.split("k=")[1].strip().removeprefix("(").split(")")[0].split(",")
-    entries = [n.strip().removeprefix("-") for n in numbers if n.strip()]
+    numbers = _values(parameters, "k", ["1", "1"])
+    entries = [n.removeprefix("-") for n in numbers]
     support = tuple(i + 1 for i, n in enumerate(entries) if is_whole(n) and int(n))
     if not support or not all(is_whole(n) for n in entries):
         raise InputError(f"a direction is written as k=(1,-2): got {text!r}")
@@ -144,13 +143,28 @@ def _ridge_of(parameters: str, text: str) -> tuple[int, ...]:
 
 def _axes_of(parameters: str, text: str) -> tuple[int, ...]:
     """The axes of a Bernoulli integrand, 1-based; the first alone unless told."""
-    if "axes=" not in parameters:
-        return (1,)
-    numbers = parameters.split("axes=")[1].strip().removeprefix("(").split(")")[0].split(",")
-    axes = [n.strip() for n in numbers if n.strip()]
+    axes = _values(parameters, "axes", ["1"])
     if not axes or not all(is_whole(n) and int(n) >= 1 for n in axes):
         raise InputError(f"axes are written as axes=(1,3): got {text!r}")
     return tuple(int(n) for n in axes)
+
+
+def _short_sides(parameters: str, text: str) -> tuple[int, ...]:
+    """The 1-based coordinates in which a box with a side for each does not fill the torus."""
+    sides = [parse_expression(v) for v in _values(parameters, "side", [])]
+    short = tuple(i + 1 for i, side in enumerate(sides) if side != 1)
+    if sides and not short:
+        raise InputError(f"some side of a box must be below 1: got {text!r}")
+    return short if len(sides) > 1 else ()
+
+
+def _values(parameters: str, key: str, default: list[str]) -> list[str]:
+    """The values of ``key=(value,value)`` or ``key=value``."""
+    found = re.search(rf"(?:^|,)\s*{key}\s*=\s*(?:\(([^)]*)\)|([^,]*))", parameters)
+    if found is None:
+        return default
+    listed = found[1] or found[2] or ""
+    return [v.strip() for v in listed.split(",") if v.strip()]
 
 
 def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) -> Expr | None:
@@ -172,7 +186,7 @@ def shell_exponent(decay: Decay, layout: Layout, region: Region, flat: int = 0) 
     if decay.family in _SMOOTH:
         return sympy.oo
     if decay.family in _JUMPS:
-        return Integer(1)
+        return Integer(1) if _lies_in(layout, region, decay.axes) else None
     if decay.family in ("ball", "disk", "chord"):
         full = layout.dim + flat + (1 if decay.family == "chord" else 0)
         if decay.family == "disk" and full != 2:
@@ -200,6 +214,22 @@ def _named_power(decay: Decay, layout: Layout, region: Region) -> Expr | None:
         if any(r.counts == region.counts for r in select(layout, name)):
             return p
     return None
+
+
+def _lies_in(layout: Layout, region: Region, axes: tuple[int, ...]) -> bool:
+    """Whether some support of the region has coordinates among these alone; none: all.
+
+    Flats average over the coordinates beyond the layout's.
+    """
+    if not axes:
+        return True
+    sampled = tuple(a for a in axes if not layout.dim.is_Integer or a <= layout.dim)
+    if not sampled:
+        return False
+    held = region_of_support(layout, sampled).counts
+    return all(
+        nonnegative(h - c, region.assumptions) for h, c in zip(held, region.counts, strict=True)
+    )
 
 
 def _holds_support(layout: Layout, region: Region, axes: tuple[int, ...]) -> bool:

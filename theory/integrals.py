@@ -48,7 +48,7 @@ def raised(base: str, power: Expr) -> str:
     """``base^power``, brackets where they are needed."""
     if power == 1:
         return base
-    if power.is_Integer or (power.is_Atom and power.is_positive):
+    if power.is_Integer or (power.is_Symbol and power.is_positive):
         return f"{base}^{power}"
     return f"{base}^({expression_text(power)})"
 

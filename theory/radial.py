@@ -168,21 +168,29 @@ def closed_form(problem: Radial, crossed: bool = True, tied: bool | None = None)
 
 
 def leading(
-    problem: Radial, assumptions: Assumptions = (), tied: bool | None = None
+    problem: Radial,
+    assumptions: Assumptions = (),
+    tied: bool | None = None,
+    crossed: bool = True,
 ) -> Leading | None:
     """Leading term of V as N → ∞; None if V vanishes for large N (step against best case).
+
+    Parameters
+    ----------
+    crossed : bool
+        Whether ρ0 <= ν; asked only where e = 0: else ν outgrows ρ0.
 
     Raises
     ------
     UndecidedSign
         If powers of ν cannot be compared under the assumptions.
     """
+    if problem.effective == 0:
+        constant = N * closed_form(problem, crossed, tied)
+        return Leading(Order(Integer(1)), constant) if constant != 0 else None
     terms = power_log_terms(problem, True, tied)
-    if problem.effective == 0 or not terms:
-        constant = sum(
-            (t.coefficient * problem.alpha**t.power for t in terms if not t.log), Integer(0)
-        )
-        return Leading(Order(Integer(1)), problem.gamma * constant) if terms else None
+    if not terms:
+        return None
     best = terms[0]
     for t in terms[1:]:
         best = _larger(best, t, assumptions)

@@ -23,7 +23,7 @@ from ...theory.errors import InputError
 from ...theory.kernels import Factor as KernelFactor
 from ...theory.samplers import Sampler
 from ...theory.symbolic import FracElement
-from ..expected_spectra.coefficients import element_rational
+from ..expected_spectra.spectrum_balls import element_rational
 
 AxisFactor = tuple[tuple[Fraction, int | None], ...]
 """Σ_j w_j φ_j on one axis: pairs (w, n), φ = sinc²(ν/n), or φ = 1 where n is None."""

@@ -205,7 +205,7 @@ def prepared(problem: RadialProblem, route: str = "closed") -> Callable[[], Ball
 
 
 def _leading(problem: RadialProblem) -> Leading | None:
-    found = leading(problem.theory())
+    found = leading(problem.theory(), crossed=problem.rho0 <= problem.alpha)
     if found is None:
         return None
     c2 = RHO_0 ** _rational(problem.decay or Fraction(0)) if problem.continuous else Integer(1)

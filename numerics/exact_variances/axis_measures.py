@@ -23,8 +23,8 @@ from ...theory.kernels import Atom, Kernel
 from ...theory.samplers import Sampler
 from ...theory.shapes import SINC2
 from ...theory.symbolic import FracElement
-from ..balls import flint
-from ..expected_spectra.coefficients import Rational, element_rational
+from ..balls import Rational, flint
+from ..expected_spectra.spectrum_balls import element_rational
 
 
 class OutOfReach(InputError):

@@ -19,8 +19,7 @@ from collections.abc import Callable
 from itertools import permutations
 from typing import TypeAlias
 
-from ..balls import Ball, flint
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, flint
 from .disk_fluxes import Jump, Piece, breaks, integral
 
 _SERIES = ((0, flint.fmpq(2, 3)), (1, flint.fmpq(-1)), (3, flint.fmpq(1, 3)))  # p, c_p

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import ceil, isqrt, log
 
-from ..balls import Ball, flint
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, flint
 from .ball_fluxes import ball_flux
 from .covariogram_series import Tooth
 from .covariograms import Covariogram, at_zero, unit_ball, value

@@ -23,8 +23,7 @@ from functools import lru_cache, reduce
 from math import comb
 from typing import TypeAlias
 
-from ..balls import Ball, flint
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, flint
 from .covariograms import Covariogram, slope, value
 from .distance_moments import log_moment, moments
 

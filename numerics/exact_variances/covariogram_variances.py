@@ -28,8 +28,7 @@ import numpy as np
 
 from ...theory.errors import InputError
 from ...theory.samplers import Sampler
-from ..balls import Ball, certified, flint, rational
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, certified, flint, rational
 from ..integrands.ball import Ball as BallIntegrand
 from ..integrands.chord import Chord
 from .axis_measures import UNIFORM, AxisMeasure, OutOfReach, measure_terms

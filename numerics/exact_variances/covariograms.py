@@ -15,8 +15,7 @@ which is the covariogram of the ball projected along the k axes: for k = 1 of th
 
 from dataclasses import dataclass
 
-from ..balls import Ball, flint
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, flint
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from itertools import permutations
 from typing import TypeAlias
 
-from ..balls import Ball, flint
-from ..expected_spectra.coefficients import Rational
+from ..balls import Ball, Rational, flint
 
 Jump: TypeAlias = tuple[Rational, Rational]
 """Of the density constant + slope x at a break: below minus above."""

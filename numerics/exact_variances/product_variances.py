@@ -25,8 +25,8 @@ from ...theory.layouts import Layout
 from ...theory.samplers import Sampler
 from ...theory.shapes import SINC2
 from ..balls import Ball, certified, flint
-from ..expected_spectra.coefficients import element_rational
 from ..expected_spectra.shape_sums import shape_sum
+from ..expected_spectra.spectrum_balls import element_rational
 from ..integrands.energies import Energy, factor_energy, unit_energy
 from ..integrands.protocol import Factor, Part
 

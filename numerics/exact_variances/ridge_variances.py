@@ -18,9 +18,9 @@ from typing import TypeAlias
 from ...theory.errors import InputError
 from ...theory.kernels import Atom, Term
 from ...theory.samplers import Sampler
-from ..balls import Ball, certified, flint
-from ..expected_spectra.coefficients import Rational, element_rational
+from ..balls import Ball, Rational, certified, flint
 from ..expected_spectra.spectra import support_counts
+from ..expected_spectra.spectrum_balls import element_rational
 from ..integrands.ridge import Ridge
 from ..integrands.spline import cosine_sum
 

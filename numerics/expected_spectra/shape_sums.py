@@ -20,13 +20,12 @@ from math import factorial
 
 from ...theory.errors import InputError
 from ...theory.shapes import Shape
-from ..balls import Ball, exact_ball, flint, rational
+from ..balls import Ball, Rational, exact_ball, flint, rational
 from ..integrands.gaussian import GaussianFactor
 from ..integrands.polylog import PolylogFactor
 from ..integrands.protocol import Factor
 from ..integrands.spline import SplineFactor
 from ..wave_sums import Envelope, Waves, wave_product, wave_sum, waves_of
-from .coefficients import Rational
 
 
 def shape_sum(factor: Factor, shapes: Sequence[tuple[Shape, int]]) -> Ball:

@@ -15,8 +15,9 @@ from ...theory.errors import InputError
 from ...theory.kernels import Factor
 from ...theory.layouts import Layout
 from ...theory.samplers import Sampler
-from ...theory.symbolic import FracElement, sympy
+from ...theory.symbolic import sympy
 from ..integrands.protocol import Ints, Mpf, mp
+from .coefficients import element_value
 from .shape_values import shape_value
 from .spectrum_arrays import scaled_power_array
 
@@ -37,25 +38,6 @@ def counts_by_growth(layout: Layout, n: Mpf) -> dict[str, Mpf]:
 
 def _number(value: object) -> Mpf:
     return mp.mpmathify(sympy.N(value, mp.dps + 5))
-
-
-def element_value(element: FracElement, counts: Counts) -> Mpf:
-    """A coefficient of a kernel as a number of mpmath."""
-    names = [str(s) for s in element.field.symbols]
-    values = [mp.pi**2, *(mp.mpf(counts[name]) for name in names[1:])]
-    over, under = (_polynomial_value(p, values) for p in (element.numer, element.denom))
-    return over / under
-
-
-def _polynomial_value(polynomial: FracElement, values: Sequence[Mpf]) -> Mpf:
-    total = mp.mpf(0)
-    for powers, number in polynomial.terms():
-        term = mp.mpf(int(number.numerator)) / int(number.denominator)
-        for value, k in zip(values, powers, strict=True):
-            if k:
-                term *= value**k
-        total += term
-    return total
 
 
 def support_counts(layout: Layout, support: Sequence[int]) -> tuple[int, ...]:

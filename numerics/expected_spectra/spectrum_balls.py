@@ -9,28 +9,28 @@ from collections.abc import Mapping, Sequence
 from ...theory.kernels import Factor
 from ...theory.samplers import Sampler
 from ...theory.symbolic import FracElement
-from ..balls import Ball, flint
+from ..balls import Ball, Rational, flint
+from .coefficients import counts_in_order, element_fraction, evaluated
 from .shape_values import shape_ball
 from .spectra import support_counts
-from .spectrum_forms import element_fraction
 
 
 def element_ball(element: FracElement, counts: Mapping[str, int]) -> Ball:
     """A coefficient of a kernel, an element of Q(π², counts), at the precision in force."""
-    values = [flint.arb.pi() ** 2, *(flint.arb(counts[str(s)]) for s in element.field.symbols[1:])]
-    over, under = (_polynomial_ball(p, values) for p in (element.numer, element.denom))
-    return over / under
+    values = [flint.arb.pi() ** 2, *map(flint.arb, counts_in_order(element, counts))]
+    return evaluated(element, values, lambda p, q: flint.arb(flint.fmpq(p, q)))
 
 
-def _polynomial_ball(polynomial: FracElement, values: Sequence[Ball]) -> Ball:
-    total = flint.arb(0)
-    for powers, number in polynomial.terms():
-        term = flint.arb(flint.fmpq(int(number.numerator), int(number.denominator)))
-        for value, k in zip(values, powers, strict=True):
-            if k:
-                term *= value**k
-        total += term
-    return total
+def element_rational(element: FracElement, counts: Mapping[str, int]) -> Rational:
+    """A coefficient without π² as an exact rational number.
+
+    Raises
+    ------
+    InputError
+        If π² occurs in it.
+    """
+    values = [None, *map(flint.fmpq, counts_in_order(element, counts))]
+    return evaluated(element, values, flint.fmpq)
 
 
 def scaled_power_ball(sampler: Sampler, counts: Mapping[str, int], m: Sequence[int]) -> Ball:

@@ -30,7 +30,7 @@ from typing import TypeAlias
 
 from ...theory.kernels import Atom, Factor, Kernel
 from ...theory.shapes import SINC2, Shape
-from ...theory.symbolic import FracElement
+from .coefficients import element_fraction
 
 _JOINT = 2  # coordinates whose vertices are interpolated together
 
@@ -125,22 +125,6 @@ def spectrum_form(
         constant, products = _term_by_term(terms)
     named = {v for p in products for f in p.factors for v in _named(f)}
     return SpectrumForm(constant, tuple(products), tuple(named))
-
-
-def element_fraction(element: FracElement, counts: Mapping[str, int]) -> Fraction:
-    """A coefficient of a kernel, which never has π² in it, as an exact number."""
-    values = [0, *(int(counts[str(s)]) for s in element.field.symbols[1:])]
-    over, under = (_polynomial_fraction(p, values) for p in (element.numer, element.denom))
-    return over / under
-
-
-def _polynomial_fraction(polynomial: FracElement, values: Sequence[int]) -> Fraction:
-    total = Fraction(0)
-    for powers, number in polynomial.terms():
-        assert powers[0] == 0
-        whole = prod(v**k for v, k in zip(values, powers, strict=True) if k)
-        total += Fraction(int(number.numerator) * whole, int(number.denominator))
-    return total
 
 
 def _linear(factor: Factor, axis: int, counts: Mapping[str, int]) -> _Linear:

@@ -20,8 +20,8 @@ from ...theory.kernels import Factor, Term
 from ...theory.samplers import Sampler
 from ...theory.shapes import Shape
 from ..balls import Ball, exact_ball, flint
-from .coefficients import element_rational
 from .spectra import support_counts
+from .spectrum_balls import element_rational
 
 
 @dataclass(frozen=True)
