@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from specrate.numerics import variance
 from specrate.numerics.balls import flint, rational
 from specrate.numerics.exact_variances.product_variances import product_variance
 from specrate.numerics.exact_variances.ridge_variances import ridge_variance
@@ -106,3 +107,21 @@ def test_eight_coordinates_under_a_latin_hypercube():
 def test_too_many_waves_are_refused():
     with pytest.raises(InputError, match="at most 100000 waves"):
         found("latin-hypercube", Ridge(tuple(7**i for i in range(11)), 2), 10**6)
+
+
+@pytest.mark.parametrize(("name", "b"), [("box-dpp", 1), ("difference-jitter", 2), ("cloaked", 1)])
+def test_other_shapes_go_by_the_lattice(name, b):
+    """Along k = 3 in 1D against its first J = 20 000 waves; what is left is below J^(1 − 2b)."""
+    found = variance(name, f"ridge:k=3,b={b}", 1, 16)
+    sampler = parse_sampler(name, 1)
+    j = np.arange(1, 20_001)
+    power = power_array(sampler, sampler.counts_at(16), 3 * j[:, None])
+    direct = 2 * float(np.sum(power * (factorial(b) / (2 * np.pi * j) ** b) ** 2))
+    assert found.method == "lattice"
+    assert abs(float(found.value.value) - direct) < 0.3 / 20_000 ** (2 * b - 1)
+    assert float(found.value.error_bound) < 1e-6 * direct
+
+
+def test_other_shapes_beyond_the_lattice_are_refused():
+    with pytest.raises(InputError, match="closed form along a ridge must have a spectrum of sinc"):
+        variance("box-dpp", "ridge:k=(1,0,0,0)", 4, 16)

@@ -18,11 +18,13 @@ from typing import TypeAlias
 from ...theory.errors import InputError
 from ...theory.kernels import Atom, Term
 from ...theory.samplers import Sampler
+from ...theory.shapes import SINC2
 from ..balls import Ball, Rational, certified, flint
 from ..expected_spectra.spectra import support_counts
 from ..expected_spectra.spectrum_balls import element_rational
 from ..integrands.ridge import Ridge
 from ..integrands.spline import cosine_sum
+from .axis_measures import OutOfReach
 
 _MOST_WAVES = 100_000
 
@@ -35,6 +37,8 @@ def ridge_variance(sampler: Sampler, counts: Mapping[str, int], ridge: Ridge, di
 
     Raises
     ------
+    OutOfReach
+        If the spectrum has shapes other than sinc².
     InputError
         If the product over the coordinates has more than 100 000 waves: too many different k_i.
     """
@@ -69,6 +73,10 @@ def _term_waves(term: Term, sampler: Sampler, counts: Mapping[str, int], ridge: 
 
 def _atom_waves(atom: Atom, counts: Mapping[str, int], k: int) -> Waves:
     """An atom of the kernel at the frequencies j k, j ≠ 0."""
+    others = [shape.kind for shape, _ in atom.shapes if shape != SINC2]
+    if others:
+        rule = "the closed form along a ridge must have a spectrum of sinc² and combs alone"
+        raise OutOfReach(f"{rule}: got the shape {others[0]}")
     waves: Waves = {(0, 1, flint.fmpq(0)): flint.fmpq(1)}
     for element in atom.combs:
         n = int(element_rational(element, counts).p)

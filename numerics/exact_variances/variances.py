@@ -24,7 +24,8 @@ from ..integrands.chord import Chord
 from ..integrands.grammar import parse_integrand
 from ..integrands.protocol import Integrand, Mpf, to_mpf
 from ..integrands.ridge import Ridge
-from .covariogram_variances import OutOfReach, ball_variance
+from .axis_measures import OutOfReach
+from .covariogram_variances import ball_variance
 from .lattice_variances import BOX, LARGEST_DIM, lattice_variance
 from .product_variances import product_variance
 from .ridge_variances import ridge_variance
@@ -211,17 +212,19 @@ def _certified_variance(asked: _Asked, method: str | None) -> tuple[Ball, str]:
         raise InputError(f"a sampler and its integrand must have one dimension: got {dims}")
     if method is not None and method not in _ROUTES:
         raise InputError(f"a method must be one of {', '.join(_ROUTES)}: got {method!r}")
+    unreached: OutOfReach | None = None
     for name, route in _ROUTES.items():
         if method not in (None, name):
             continue
         try:
             ball = route(asked)
-        except OutOfReach:
-            if method == name:
-                raise
+        except OutOfReach as error:
+            unreached = unreached or error
             continue
         if ball is not None:
             return ball, name
+    if unreached is not None:
+        raise unreached
     names = f"{asked.integrand.name} under {asked.sampler.name}"
     raise InputError(f"the method {method} must apply to the integrand and sampler: got {names}")
 
@@ -257,7 +260,7 @@ def _lattice(asked: _Asked) -> Ball:
     f = asked.integrand
     largest = LARGEST_DIM - isinstance(f, Chord)  # of the ball whose chord it is
     if f.dim > largest:
-        raise InputError(
+        raise OutOfReach(
             "an exact variance of an integrand that is neither a ridge nor a sum of products must "
             f"have --dim of at most {largest}: got {f.name} with --dim {f.dim}"
         )
