@@ -93,7 +93,12 @@ class _Asked:
 
 
 def variance(
-    sampler: str, integrand: str, dim: int, n: str, digits: int = 15, method: str | None = None
+    sampler: str,
+    integrand: str,
+    dim: int,
+    n: str | int,
+    digits: int = 15,
+    method: str | None = None,
 ) -> VarianceResult:
     """Exact variance of a catalogue sampler on a catalogue integrand, certified.
 
@@ -103,8 +108,8 @@ def variance(
         In their grammars: ``jitter``, ``disk:radius=0.3``.
     dim : int
         At least 1.
-    n : str
-        Number of points, ``1000000`` or ``1e30``.
+    n : str or int
+        Number of points, ``1000000`` or ``"1e30"``.
     digits : int
         1 to 4000.
     method : str, optional
@@ -117,7 +122,7 @@ def variance(
     """
     if not 1 <= digits <= 4_000:  # Python reads no integers of more than 4300 digits
         raise InputError(f"--digits must be in 1..4000: got {digits}")
-    asked = _whole(n)
+    asked = _whole(str(n))
     found, f = parse_sampler(sampler, dim), parse_integrand(integrand, dim)
     if found.kernel is None or found.counts_at is None:
         raise InputError(f"an exact variance needs a sampler with points: got {found.name}")
@@ -128,7 +133,7 @@ def variance(
     shown = min(digits, max(2, floor(ball.rel_accuracy_bits() * log10(2)) + 1))
     value = spelled(ball, digits if ball.is_exact() else shown)
     left = _left_out(found, f, asked, counts["N"])
-    return VarianceResult(found.name, f.name, dim, counts["N"], n, value, used, seconds, left)
+    return VarianceResult(found.name, f.name, dim, counts["N"], str(n), value, used, seconds, left)
 
 
 def _whole(n: str) -> int:
@@ -219,7 +224,7 @@ def _certified_variance(asked: _Asked, method: str | None) -> tuple[Ball, str]:
         try:
             ball = route(asked)
         except OutOfReach as error:
-            unreached = unreached or error
+            unreached = error
             continue
         if ball is not None:
             return ball, name
@@ -261,8 +266,8 @@ def _lattice(asked: _Asked) -> Ball:
     largest = LARGEST_DIM - isinstance(f, Chord)  # of the ball whose chord it is
     if f.dim > largest:
         raise OutOfReach(
-            "an exact variance of an integrand that is neither a ridge nor a sum of products must "
-            f"have --dim of at most {largest}: got {f.name} with --dim {f.dim}"
+            "an exact variance of an integrand that is neither a sum of products nor, under sinc² "
+            f"and combs alone, a ridge must have --dim of at most {largest}: got {f.name} with --dim {f.dim}"
         )
     return lattice_variance(asked.sampler, asked.counts, f, asked.box)
 
