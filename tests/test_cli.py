@@ -280,6 +280,15 @@ def test_interrupt_prints_what_was_found() -> None:
     assert "Traceback" not in err
 
 
+def test_interrupt_of_an_integral_in_compiled_code() -> None:
+    process = launch("variance", "box-dpp", "ball:radius=1/4", "--dim", "1", "--n", "1e300")
+    time.sleep(5)
+    assert process.poll() is None, "the variance was there before it could be interrupted"
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "specrate: interrupted\n")
+
+
 def test_closed_pipe_is_no_error() -> None:
     reader, writer = os.pipe()
     os.close(reader)

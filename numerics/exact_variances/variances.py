@@ -30,6 +30,7 @@ from .lattice_variances import BOX, LARGEST_DIM, lattice_variance
 from .product_variances import product_variance
 from .ridge_variances import ridge_variance
 
+_LARGEST_DIM = 100_000
 _LARGEST = 10**4000  # Python writes no integers of more than 4300 digits
 
 
@@ -107,7 +108,7 @@ def variance(
     sampler, integrand : str
         In their grammars: ``jitter``, ``disk:radius=0.3``.
     dim : int
-        At least 1.
+        1 to 100 000.
     n : str or int
         Number of points, ``1000000`` or ``"1e30"``.
     digits : int
@@ -122,6 +123,8 @@ def variance(
     """
     if not 1 <= digits <= 4_000:  # Python reads no integers of more than 4300 digits
         raise InputError(f"--digits must be in 1..4000: got {digits}")
+    if not 1 <= dim <= _LARGEST_DIM:
+        raise InputError(f"--dim must be in 1..{_LARGEST_DIM}: got {dim}")
     asked = _whole(str(n))
     found, f = parse_sampler(sampler, dim), parse_integrand(integrand, dim)
     if found.kernel is None or found.counts_at is None:
