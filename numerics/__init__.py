@@ -7,11 +7,13 @@ if TYPE_CHECKING:
     from .checking.check_documents import check
     from .equation17.radial_integrals import radial
     from .exact_variances.variances import variance
+    from .falsification.falsifiers import falsify
 
-__all__ = ["check", "radial", "variance"]
+__all__ = ["check", "falsify", "radial", "variance"]
 
 _DOORS = {
     "check": ".checking.check_documents",
+    "falsify": ".falsification.falsifiers",
     "radial": ".equation17.radial_integrals",
     "variance": ".exact_variances.variances",
 }

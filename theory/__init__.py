@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .derivations import derive
+    from .recommendations import recommend
     from .tables import table
 
-__all__ = ["derive", "table"]
+__all__ = ["derive", "recommend", "table"]
 
-_DOORS = {"derive": ".derivations", "table": ".tables"}
+_DOORS = {"derive": ".derivations", "recommend": ".recommendations", "table": ".tables"}
 
 
 def __getattr__(name: str) -> Any:
