@@ -22,10 +22,14 @@ flint: Any = _flint
 Ball: TypeAlias = Any
 """A real ball, ``flint.arb``. The square of one that may hold 0 is x * x: x**2 gives nan."""
 
+Complex: TypeAlias = Any
+"""A complex ball, ``flint.acb``."""
+
 Rational: TypeAlias = Any
 """An exact rational number, ``flint.fmpq``."""
 
 _MOST_BITS = 1 << 20
+_NOTHING: Any = flint.acb("nan", "nan")
 _NUMBER = re.compile(
     r"[+-]?(\d{1,60}(\.\d{0,60})?|\.\d{1,60})([eE][+-]?\d{1,4})?|[+-]?\d{1,60}/\d{1,60}"
 )
@@ -86,6 +90,32 @@ def certified(evaluate: Callable[[], Ball], digits: int) -> Ball:
     raise InputError(
         f"{digits} digits must be within reach of {_MOST_BITS} bits: got no convergence"
     )
+
+
+def integrated(
+    integrand: Callable[[Complex, bool], Complex],
+    start: Ball | int,
+    end: Ball | int,
+    **options: Any,
+) -> Ball:
+    """The real part of a ball-arithmetic integral, ``flint.acb.integral``.
+
+    What the integrand raises, an interrupt among it, is raised here: the compiled integral goes on
+    past it, with values that say nothing.
+    """
+    raised: list[BaseException] = []
+
+    def guarded(x: Complex, analytic: bool) -> Complex:
+        try:
+            return _NOTHING if raised else integrand(x, analytic)
+        except BaseException as error:
+            raised.append(error)
+            return _NOTHING
+
+    value = flint.acb.integral(guarded, start, end, **options).real
+    if raised:
+        raise raised[0]
+    return value
 
 
 def spelled(ball: Ball, digits: int) -> Certified:

@@ -21,12 +21,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import log
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-from .balls import Ball, Rational, exact_ball, flint
-
-Complex: TypeAlias = Any
-"""A complex ball, ``flint.acb``."""
+from .balls import Ball, Complex, Rational, exact_ball, flint, integrated
 
 Waves: TypeAlias = Mapping[tuple[int, bool, Rational], Rational]
 """Coefficients of (2πm)^(−q) cos 2πhm, or sin for True, by (q, sine, h), 0 <= h <= 1/2, q >= 0."""
@@ -119,7 +116,7 @@ def _smooth_part(start: Ball, waves: Waves, envelope: Envelope, scale: Ball) -> 
             total += own * (2 * h * z).exp_pi_i() if h != 0 else own
         return total * profile(z, z.log(analytic=analytic)) * direction * start * growth
 
-    value = flint.acb.integral(integrand, 0, end, abs_tol=_tolerance(scale)).real
+    value = integrated(integrand, 0, end, abs_tol=_tolerance(scale))
     return value + (scale * rest).union(-scale * rest)
 
 
@@ -149,7 +146,7 @@ def _periodic_part(start: Ball, waves: Waves, envelope: Envelope, scale: Ball) -
                 total += _i_power(sine) * w * z**-q * wave
         return total * profile(z, z.log(analytic=analytic)) * direction / (1 - full)
 
-    value = flint.acb.integral(integrand, 0, reach, abs_tol=_tolerance(scale)).real
+    value = integrated(integrand, 0, reach, abs_tol=_tolerance(scale))
     return value + (scale * rest).union(-scale * rest)
 
 

@@ -29,19 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = _parser().parse_args(arguments)
     try:
         return _run(parsed)
-    except (KeyboardInterrupt, SystemError) as error:  # also while the rooms are being imported
-        if not isinstance(error, KeyboardInterrupt) and not _was_interrupted(error):
-            raise
+    except KeyboardInterrupt:  # also while the rooms are being imported
         print("specrate: interrupted", file=sys.stderr)
         return INTERRUPTED
-
-
-def _was_interrupted(error: SystemError) -> bool:
-    """Whether compiled code, such as an integral in ball arithmetic, went on past an interrupt."""
-    cause: BaseException | None = error
-    while cause is not None and not isinstance(cause, KeyboardInterrupt):
-        cause = cause.__cause__
-    return cause is not None
 
 
 def _run(parsed: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.balls import certified, exact_ball, flint, spelled
+from specrate.numerics.balls import certified, exact_ball, flint, integrated, spelled
 from specrate.theory.errors import InputError
 
 
@@ -34,3 +34,27 @@ def test_certified_restores_the_precision():
 def test_a_ball_that_never_narrows_is_refused():
     with pytest.raises(InputError, match="no convergence"):
         certified(lambda: flint.arb(0).union(flint.arb(1)), 5)
+
+
+def test_an_integral_is_a_ball():
+    """∫ sin over (0, π) = 2."""
+    total = integrated(lambda x, analytic: x.sin(), 0, flint.arb.pi())
+    assert total.contains(2)
+    assert total.rad() < 1e-13
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, InputError])
+def test_what_an_integrand_raises_is_raised(error):
+    """Compiled code goes on past an exception; its value must not come back."""
+    calls = 0
+
+    def integrand(x, analytic):
+        nonlocal calls
+        calls += 1
+        if calls == 3:
+            raise error("stop")
+        return x
+
+    with pytest.raises(error, match="stop"):
+        integrated(integrand, 0, 1)
+    assert calls == 3

@@ -79,6 +79,10 @@ INVALID = [
     ("disk:radius=(0.1,0.2)", 2, "one number"),
     ("chord:radius=1/2", 2, "0 < radius < 1/2"),
     ("gaussian:sigma=0", 2, "0 < sigma"),
+    ("gaussian:sigma=101", 2, "0 < sigma <= 100"),
+    (f"disk:radius=0.1{'0' * 39}1", 2, "decimal or a fraction"),
+    (f"disk:radius={'1' * 20}.{'1' * 21}e-20", 2, "at most 40 digits"),
+    (f"disk:radius=0.{'0' * 30}1e-980", 2, "within 1e-999 and 1e999"),
     ("gaussian:sigma=(0.1,0.2)", 2, "one number"),
     ("anisotropic-gaussian:sigma=(0.1)", 2, "one value per coordinate"),
     ("anisotropic-gaussian:sigma=(0.1,0.2", 2, "decimal or a fraction"),
@@ -130,7 +134,10 @@ def test_catalogue_is_consistent():
     assert {text.strip().partition(":")[0] for text, _, _ in VALID} == set(names)
 
 
-@pytest.mark.parametrize("text", ["0.3", "1/3", "(0.1,2/7)", "-1.5", "12", "0", "1e-30"])
+@pytest.mark.parametrize("text", [
+    "0.3", "1/3", "(0.1,2/7)", "-1.5", "12", "0", "1e-30", "1e-45", "1e999", "-3e-999", "1e45",
+    f"0.{'7' * 40}", f"{'7' * 40}e-999", f"1/{'9' * 40}", f"0.{'0' * 39}7",
+])  # fmt: skip
 def test_literals_read_back(text):
     assert parse_value(literal(parse_value(text))) == parse_value(text)
 

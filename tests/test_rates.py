@@ -175,6 +175,24 @@ def test_products_under_combs_have_the_slope_of_their_exact_variance(name, dim, 
     """The teeth of a comb are where a product's power is thinnest: ∏ |m_i|^-2k, not |m|^-p."""
     sampler = parse_sampler(name, dim)
     text = f"bernoulli:k={k},axes=({','.join(map(str, axes))})"
+    assert_slope(sampler, text, dim)
+
+
+@pytest.mark.parametrize("name", ["regular", "correlated-multi-jitter", "multi-jitter", "jitter"])
+@pytest.mark.parametrize("text", ["ridge:k=(2,-3)", "ridge:k=(3,3),b=1", "ridge:k=(1,1),b=3"])
+def test_ridges_under_combs_have_the_slope_of_their_exact_variance(name, text):
+    """On the line j k teeth stand one j in n, in shells one frequency in n²."""
+    assert_slope(parse_sampler(name, 2), text, 2)
+
+
+def test_combs_of_unequal_growth_on_a_line_are_undecided():
+    sampler = parse_sampler("regular:N^1/3xN^2/3", 2)
+    with pytest.raises(UndecidedSign, match="combs along a line must grow with one power of N"):
+        region_rates(sampler, parse_decay("ridge:k=(1,1)"))
+
+
+def assert_slope(sampler, text, dim):
+    """The table's exponent against exact variances at N = 10^12 and 10^15."""
     rates = region_rates(sampler, parse_decay(text))
     (case,) = overall(rates, ())
     variance = []

@@ -197,3 +197,8 @@ def test_what_cannot_be_is_refused_in_one_line(name, dim, integrand, route, rule
         whole(name, dim, 16, integrand, route)
     assert rule in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_shells_of_a_tiny_ball_are_refused():
+    with pytest.raises(InputError, match="beyond the ball's first zero"):
+        whole("random", 1, 16, SpaceBall(1, F(1, 10**9)), "shells")

@@ -2,7 +2,9 @@
 
 Below the first alias a comb is [m = 0] and drops out of the low-frequency series. Above it the
 teeth stand one frequency in n along each of the comb's axes, so that a comb of height H N^a over
-axes with the counts n_i adds H N^a / ∏ n_i in the mean.
+axes with the counts n_i adds H N^a / ∏ n_i in the mean. Along a line of frequencies j k, on which
+a ridge has its power, they stand one j in lcm n_i/gcd(n_i, k_i), of the order of one n_i where all
+grow alike.
 """
 
 from collections.abc import Iterator
@@ -11,6 +13,7 @@ from functools import reduce
 from itertools import product
 from operator import add
 
+from .errors import UndecidedSign
 from .expansions import factor_series, group_coefficient
 from .kernels import Factor, Kernel, Term
 from .layouts import Layout
@@ -35,12 +38,27 @@ class Comb:
     spread: Expr = Integer(0)
 
 
-def combs_of(kernel: Kernel, layout: Layout, region: Region) -> tuple[Comb, ...]:
-    """The mean that each set of comb axes adds above its first alias, on a region."""
-    return tuple(_means(kernel.restrict(tuple(region.counts)), layout, region))
+def combs_of(
+    kernel: Kernel, layout: Layout, region: Region, on_line: bool = False
+) -> tuple[Comb, ...]:
+    """The mean that each set of comb axes adds above its first alias, on a region.
+
+    Parameters
+    ----------
+    on_line : bool
+        Whether the mean is over the multiples of one frequency instead of shells.
+
+    Raises
+    ------
+    UndecidedSign
+        If on a line the counts of a set of combs grow with different powers of N.
+    """
+    return tuple(_means(kernel.restrict(tuple(region.counts)), layout, region, on_line))
 
 
-def _means(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[Comb]:
+def _means(
+    terms: tuple[Term, ...], layout: Layout, region: Region, on_line: bool
+) -> Iterator[Comb]:
     heights: dict[Bases, list[Coefficient]] = {}
     for term in terms:
         for combs, coefficient in _comb_terms(term, region.counts):
@@ -57,8 +75,15 @@ def _means(terms: tuple[Term, ...], layout: Layout, region: Region) -> Iterator[
             height, constant = height - axes * exponent, constant / factor**axes
             if exponent == threshold:
                 scale = sympy.Max(scale, factor)
+            elif on_line and threshold != 0:
+                raise UndecidedSign(
+                    "combs along a line must grow with one power of N: "
+                    f"got N^({threshold}) and N^({exponent})"
+                )
             elif nonnegative(exponent - threshold, region.assumptions):
                 threshold, scale = exponent, factor
+        if on_line:
+            height, spread = height + spread - threshold, threshold
         yield Comb(threshold, sympy.expand(height), constant, scale, sympy.expand(spread))
 
 

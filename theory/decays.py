@@ -56,6 +56,11 @@ class Decay:
         """Whether the power on a support falls as a product over its coordinates."""
         return self.family in ("box", "product", "bernoulli")
 
+    @property
+    def is_on_line(self) -> bool:
+        """Whether its power lies on the multiples of one frequency, off the axes."""
+        return self.family == "ridge" and len(self.axes) > 1
+
 
 def per_region(powers: Mapping[str, Expr | int]) -> Decay:
     """A class with its own decay p on each named region, and no power on any other.

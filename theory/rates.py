@@ -52,17 +52,24 @@ class RegionRate:
 
 
 @lru_cache(maxsize=4096)
-def _derived(sampler: Sampler, region: Region) -> Profile:
+def _derived(sampler: Sampler, region: Region, on_line: bool) -> Profile:
     if sampler.kernel is None:
         return sampler.free_profile
     series = expand(sampler.kernel, sampler.layout, region)
-    combs = combs_of(sampler.kernel, sampler.layout, region)
+    combs = combs_of(sampler.kernel, sampler.layout, region, on_line)
     return newton_polygon(series, combs, region.assumptions)
 
 
-def profile_of(sampler: Sampler, region: Region) -> Profile:
-    """The profile of a sampler on a region, derived from its kernel (Eq. 18)."""
-    return _derived(sampler, region)
+def profile_of(sampler: Sampler, region: Region, decay: Decay | None = None) -> Profile:
+    """The profile of a sampler on a region, derived from its kernel (Eq. 18).
+
+    Parameters
+    ----------
+    decay : Decay, optional
+        The class of integrands that is to meet it: the teeth of combs lie denser on the line of
+        frequencies that has the power of a ridge than they do in shells.
+    """
+    return _derived(sampler, region, decay is not None and decay.is_on_line)
 
 
 def saturated(sampler: Sampler, rate: RegionRate) -> Profile:
@@ -90,7 +97,7 @@ def _rate(sampler: Sampler, decay: Decay, primitive: Primitive, region: Region) 
     q = shells(primitive, decay, sampler.layout, region)
     if q is None:
         return RegionRate(region, (), None, None)
-    profile = profile_of(sampler, region)
+    profile = profile_of(sampler, region, decay)
     orders = [m.order_at(q, region.assumptions, decay.is_product) for m in profile]
     return RegionRate(region, profile, q, slowest(orders, region.assumptions))
 

@@ -290,7 +290,7 @@ class _Term:
 def _slowest_term(sampler: Sampler, decay: Decay, region: Region) -> _Term | None:
     q = shells(POINT, decay, sampler.layout, region)
     slow: _Term | None = None
-    for monomial in profile_of(sampler, region) if q is not None else ():
+    for monomial in profile_of(sampler, region, decay) if q is not None else ():
         order = monomial.order_at(q, region.assumptions, decay.is_product)
         if slow is None or not dominates(slow.order, order):
             slow = _Term(region, monomial, q, order)

@@ -168,7 +168,8 @@ def region_of_support(layout: Layout, support: tuple[int, ...]) -> Region:
         raise InputError(f"a support by coordinates needs a number as dimension: got {layout.dim}")
     d = int(layout.dim)
     if len(set(support)) != len(support) or not support or not all(1 <= i <= d for i in support):
-        raise InputError(f"a support has distinct coordinates in 1..{d}: got {support}")
+        given = ",".join(map(str, support))
+        raise InputError(f"a support has distinct coordinates in 1..{d}: got {given}")
     counts = tuple(
         Integer(sum(bool(g.first <= i < g.first + g.size) for i in support)) for g in layout.groups
     )

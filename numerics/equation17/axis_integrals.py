@@ -28,7 +28,7 @@ from fractions import Fraction
 from math import ceil, log2
 
 from ...theory.errors import InputError
-from ..balls import Ball, Certified, certified, exact_ball, exact_number, flint, spelled
+from ..balls import Ball, Certified, certified, exact_ball, exact_number, flint, integrated, spelled
 from ..integrands.grammar import parse_integrand
 from .oscillating_integrals import ball_axis_integral
 from .space_integrands import SpaceBall, SpaceGaussian, SpaceIntegrand, on_space
@@ -191,7 +191,7 @@ def _ball_covariogram(dim: int, ratio: Fraction) -> Ball:
     def density(tau: Ball, _: bool) -> Ball:
         return (1 - tau) ** 2 * ((b * tau) ** 2).hypgeom_2f1(lower, upper, 1)
 
-    return b * flint.acb.integral(density, 0, 1).real
+    return b * integrated(density, 0, 1)
 
 
 def _gaussian(
@@ -251,7 +251,7 @@ def _gaussian_covariogram(region: int, y: Fraction) -> Ball:
             return 2 * (1 - tau) * (1 - (-z).exp() * z.hypgeom_1f1(order, flint.fmpq(1, 2)))
 
         tolerance = flint.arb(2) ** (-bits - smallness)
-        return flint.acb.integral(density, 0, 1, rel_tol=0, abs_tol=tolerance).real
+        return integrated(density, 0, 1, rel_tol=0, abs_tol=tolerance)
     finally:
         flint.ctx.prec = bits
 
@@ -270,7 +270,7 @@ def _gaussian_quadrature(region: int, y: Fraction) -> Ball:
 
         cut = flint.arb(ceil((0.7 * bits + region) ** 0.5) + 2)
         tolerance = flint.arb(2) ** (-bits - smallness)
-        head = flint.acb.integral(density, 0, cut, rel_tol=0, abs_tol=tolerance).real
+        head = integrated(density, 0, cut, rel_tol=0, abs_tol=tolerance)
         # 1 − sinc²(z) <= z²/3, and ∫_X^∞ x^(s+1) e^{−x²} dx = Γ(s/2 + 1, X²)/2.
         rest = height / 6 * (cut * cut).gamma_upper(half + 1)
         return head + rest.union(flint.arb(0))

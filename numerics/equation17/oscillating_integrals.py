@@ -17,7 +17,7 @@ The remainder has |R(t)| <= |a_K| t^(−K) for K >= max((d − 1)/2, 1) (DLMF 10
 from fractions import Fraction
 from math import ceil, log2
 
-from ..balls import Ball, exact_ball, flint
+from ..balls import Ball, exact_ball, flint, integrated
 
 
 def ball_axis_integral(dim: int, kappa: int, ratio: Fraction) -> Ball:
@@ -57,7 +57,7 @@ def _head(dim: int, kappa: int, b: Ball, cut: int, tolerance: Ball) -> Ball:
         return t ** (dim - kappa - 1) * wave * wave * (1 - (b * t).sinc() ** 2)
 
     goal = tolerance / scale
-    return flint.acb.integral(density, 0, cut, rel_tol=0, abs_tol=goal).real * scale
+    return integrated(density, 0, cut, rel_tol=0, abs_tol=goal) * scale
 
 
 def _hankel(dim: int, weight: Ball, cut: int, tolerance: Ball) -> tuple[list[Ball], Ball]:

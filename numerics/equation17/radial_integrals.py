@@ -21,9 +21,10 @@ from typing import Any
 from ...theory.errors import InputError
 from ...theory.radial import RHO_0, Leading, PowerLog, Radial, leading, power_log_terms
 from ...theory.symbolic import Expr, Integer, Rational, sympy
-from ..balls import Ball, Certified, certified, exact_ball, exact_number, flint, spelled
+from ..balls import Ball, Certified, certified, exact_ball, exact_number, flint, integrated, spelled
 
 _C_2, _ALPHA = sympy.Symbol("c_2", positive=True), sympy.Symbol("alpha", positive=True)
+_EXPONENT_DIGITS = 100
 _SPARE = 40  # digits with which V is certified for its logarithm, which may be small
 _LARGEST_POWER = 4096  # bits of a power that is written out in a leading constant
 _LOG = re.compile(r"log:([+-]?\d{1,9}(\.\d{0,60})?)")
@@ -140,19 +141,29 @@ def radial(
         If a number is not one, or out of its range.
     """
     log_n = _LOG.fullmatch(n.strip())
+    if log_n is None and n.strip().startswith("log:"):
+        raise InputError(f"n by its decimal logarithm must be written log:5000: got {n!r}")
     problem = RadialProblem(
-        exact_number(degree, "degree"),
+        _exponent(degree, "degree"),
         dim,
-        None if decay.strip() == "oo" else exact_number(decay, "decay"),
+        None if decay.strip() == "oo" else _exponent(decay, "decay"),
         None if log_n else exact_number(n, "n"),
         Fraction(log_n.group(1)) if log_n else None,
-        Fraction(1, max(dim, 1)) if effective is None else exact_number(effective, "effective"),
+        Fraction(1, max(dim, 1)) if effective is None else _exponent(effective, "effective"),
         exact_number(gamma, "gamma"),
         exact_number(alpha, "alpha"),
         exact_number(rho0, "rho0"),
         not discontinuous,
     )
     return solve(problem, digits)
+
+
+def _exponent(text: str, name: str) -> Fraction:
+    """A number that stands in exponents, and is written out there."""
+    number = exact_number(text, name)
+    if max(abs(number.numerator), number.denominator) >= 10**_EXPONENT_DIGITS:
+        raise InputError(f"{name} must have at most {_EXPONENT_DIGITS} digits: got {text!r}")
+    return number
 
 
 def _rational(value: Fraction) -> Expr:
@@ -344,7 +355,7 @@ def _quadrature(problem: RadialProblem) -> Callable[[], Ball]:
         def density(x: Ball, _: bool) -> Ball:
             return (steep * (x + turn)).exp()
 
-        head = flint.acb.integral(density, 0, 1).real
+        head = integrated(density, 0, 1)
         value = (log_amplitude + power * top).exp() * length * head
         if low is None or high is None:
             edge = end if high is None else start

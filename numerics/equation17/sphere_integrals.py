@@ -186,6 +186,10 @@ def _beyond(whole: Expanded, radius: float, cut: float) -> float:
     cells = sum(
         abs(float(c)) * prod(map(float, _used(n))) * sum(_used(n)) for c, n in whole.products
     )
+    if t <= dim:
+        raise InputError(
+            f"shells must reach beyond the ball's first zero: got |nu| <= {cut} for radius {radius}"
+        )
     bessel = 2 / (pi * sqrt(t * t - dim * dim / 4))
     return radius**dim * 2 * dim**1.5 / pi**2 * cells * bessel / ((dim + 2) * cut ** (dim + 1))
 

@@ -22,7 +22,7 @@ from typing import Any
 from ...theory.errors import InputError
 from ...theory.mean_distances import sides_of
 from ...theory.symbolic import Expr, sympy
-from ..balls import Ball, exact_ball, flint
+from ..balls import Ball, exact_ball, flint, integrated
 
 _FUNCTIONS: dict[Any, str] = {
     sympy.log: "log",
@@ -105,8 +105,8 @@ def mean_distance_ball(sides: Sequence[Ball]) -> Ball:
     near = 1 / flint.arb(max(float(a) for a in sides))
     digits = flint.ctx.prec * log(2)
     far = flint.arb(ceil(sqrt(digits) / min(float(a) for a in sides)) + 1)
-    total = flint.acb.integral(partial(_near, waves), 0, near).real
-    total += flint.acb.integral(partial(_middle, waves), near, far).real
+    total = integrated(partial(_near, waves), 0, near)
+    total += integrated(partial(_middle, waves), near, far)
     total += 1 / far - _tail(sides, far)
     error = sum((_missing(a * far) for a in sides), flint.arb(0)) / far
     return (total + flint.arb(0, error.upper())) / flint.arb.pi().sqrt()

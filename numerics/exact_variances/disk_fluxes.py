@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import permutations
 from typing import TypeAlias
 
-from ..balls import Ball, Rational, flint
+from ..balls import Ball, Rational, flint, integrated
 
 Jump: TypeAlias = tuple[Rational, Rational]
 """Of the density constant + slope x at a break: below minus above."""
@@ -157,4 +157,4 @@ def integral(integrand: Callable[[Ball, bool], Ball], start: Ball, end: Ball) ->
     The tolerance lies a few bits above the rounding: a larger precision lowers both.
     """
     tolerance = flint.arb(2) ** (_ROUNDED_BITS - flint.ctx.prec)
-    return flint.acb.integral(integrand, start, end, abs_tol=tolerance).real
+    return integrated(integrand, start, end, abs_tol=tolerance)

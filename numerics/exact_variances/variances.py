@@ -270,7 +270,8 @@ def _lattice(asked: _Asked) -> Ball:
     if f.dim > largest:
         raise OutOfReach(
             "an exact variance of an integrand that is neither a sum of products nor, under sinc² "
-            f"and combs alone, a ridge must have --dim of at most {largest}: got {f.name} with --dim {f.dim}"
+            f"and combs alone, a ridge must have --dim of at most {largest}: "
+            f"got {f.name} with --dim {f.dim}"
         )
     return lattice_variance(asked.sampler, asked.counts, f, asked.box)
 

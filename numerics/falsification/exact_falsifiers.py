@@ -151,7 +151,7 @@ def _derived(sampler: Sampler, claim: RateClaim) -> tuple[Region, Order] | None:
     slow: tuple[Region, Order] | None = None
     for region in select(sampler.layout, claim.region):
         q = shell_exponent(claim.decay, sampler.layout, region)
-        for monomial in profile_of(sampler, region) if q is not None else ():
+        for monomial in profile_of(sampler, region, claim.decay) if q is not None else ():
             order = monomial.order_at(q, region.assumptions, claim.decay.is_product)
             if slow is None or not dominates(slow[1], order):
                 slow = region, order

@@ -26,6 +26,7 @@ from .literals import literal, positive
 from .protocol import Count, Floats, Ints
 from .separable import Separable
 
+_WIDEST = 100
 _NARROW = Fraction(1, 20)  # at or below: translates; neither side needs more than about 25 terms
 _DOUBLE_WIDTHS = 9.0  # exp(-9^2/2) is below the rounding of a double
 
@@ -145,17 +146,18 @@ def gaussian(sigmas: tuple[Fraction, ...]) -> Separable:
     Parameters
     ----------
     sigmas : tuple of Fraction
-        Widths, each 0 < sigma: ``gaussian:sigma=s`` where all agree, else
+        Widths, each 0 < sigma <= 100: ``gaussian:sigma=s`` where all agree, else
         ``anisotropic-gaussian``.
 
     Raises
     ------
     InputError
-        If a width is not positive.
+        If a width is out of range: beyond it f differs from a constant by less than e^-100000.
     """
     for sigma in sigmas:
-        if not sigma > 0:
-            raise InputError(f"gaussian: sigma must satisfy 0 < sigma: got {literal(sigma)}")
+        if not 0 < sigma <= _WIDEST:
+            rule = f"gaussian: sigma must satisfy 0 < sigma <= {_WIDEST}"
+            raise InputError(f"{rule}: got {literal(sigma)}")
     same = len(set(sigmas)) == 1
     name = f"gaussian:sigma={literal(sigmas[0])}"
     if not same:
