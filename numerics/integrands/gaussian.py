@@ -26,7 +26,7 @@ from .literals import literal, positive
 from .protocol import Count, Floats, Ints
 from .separable import Separable
 
-_WIDEST = 100
+_WIDEST = 10**6
 _NARROW = Fraction(1, 20)  # at or below: translates; neither side needs more than about 25 terms
 _DOUBLE_WIDTHS = 9.0  # exp(-9^2/2) is below the rounding of a double
 
@@ -146,13 +146,13 @@ def gaussian(sigmas: tuple[Fraction, ...]) -> Separable:
     Parameters
     ----------
     sigmas : tuple of Fraction
-        Widths, each 0 < sigma <= 100: ``gaussian:sigma=s`` where all agree, else
+        Widths, each 0 < sigma <= 1e6: ``gaussian:sigma=s`` where all agree, else
         ``anisotropic-gaussian``.
 
     Raises
     ------
     InputError
-        If a width is out of range: beyond it f differs from a constant by less than e^-100000.
+        If a width is out of range: the decimals of a variance beyond it have no exponent that others read.
     """
     for sigma in sigmas:
         if not 0 < sigma <= _WIDEST:
