@@ -152,7 +152,7 @@ def gaussian(sigmas: tuple[Fraction, ...]) -> Separable:
     Raises
     ------
     InputError
-        If a width is out of range: the decimals of a variance beyond it have no exponent that others read.
+        If a width is out of range: beyond it decimals need exponents that nothing else reads.
     """
     for sigma in sigmas:
         if not 0 < sigma <= _WIDEST:
