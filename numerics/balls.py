@@ -6,10 +6,14 @@ precision until the digits stand, so that cancellation costs time and never digi
 """
 
 import re
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, log2
+from types import FrameType
 from typing import Any, TypeAlias
 
 import flint as _flint  # pyright: ignore[reportMissingTypeStubs]
@@ -100,8 +104,9 @@ def integrated(
 ) -> Ball:
     """The real part of a ball-arithmetic integral, ``flint.acb.integral``.
 
-    What the integrand raises, an interrupt among it, is raised here: the compiled integral goes on
-    past it, with values that say nothing.
+    The compiled integral goes on past what its integrand raises, with a value that says nothing;
+    so that is kept and raised here. An interrupt waits for the integrand to be asked again: raised
+    between two lines of it, it would get lost.
     """
     raised: list[BaseException] = []
 
@@ -112,10 +117,28 @@ def integrated(
             raised.append(error)
             return _NOTHING
 
-    value = flint.acb.integral(guarded, start, end, **options).real
+    with _interrupts(raised):
+        value = flint.acb.integral(guarded, start, end, **options).real
     if raised:
         raise raised[0]
     return value
+
+
+@contextmanager
+def _interrupts(raised: list[BaseException]) -> Generator[None]:
+    """Interrupts are put on the list; they come to the main thread alone."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def note(_number: int, _frame: FrameType | None) -> None:
+        raised.append(KeyboardInterrupt())
+
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def spelled(ball: Ball, digits: int) -> Certified:

@@ -66,13 +66,14 @@ def _spectrum(document: Document, pictures: SpectrumPictures) -> CheckFigure:
         missing = ("In one dimension frequencies fill no plane; the profile shows them all.",)
     elif not pictures.planes:
         missing = ("This check averaged no periodogram on a plane of frequencies.",)
-    caption = (
-        "N·P_S at the frequencies m, on logarithmic colours: the mean of N|F|² over realisations "
-        "of the raw points, beside it the exact spectrum of a claimed sampler. Independent points "
-        f"have N·P_S = 1 everywhere; m = 0 is left blank; colours end at 10^{log10(LEAST):.0f}."
-    )
     panels = plane_panels(pictures.planes)
     paired = any(p.exact is not None for p in pictures.planes)
+    beside = ", beside it the exact spectrum of a claimed sampler" if paired else ""
+    caption = (
+        "N·P_S at the frequencies m, on logarithmic colours: the mean of N|F|² over realisations "
+        f"of the raw points{beside}. Independent points "
+        f"have N·P_S = 1 everywhere; m = 0 is left blank; colours end at 10^{log10(LEAST):.0f}."
+    )
     return CheckFigure("spectrum", "Power spectrum", caption, panels, missing, paired)
 
 

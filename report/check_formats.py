@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from math import floor, inf, log, log10
 from typing import Any
 
+from .check_fits import FIT_TITLE, PARAMETERS, RATE_TITLE, fit_remarks, fit_rows, rate_rows
 from .grids import PREAMBLE, aligned, booktabs, comma_separated, escaped, markdown, without_repeats
 
 Document = dict[str, Any]
 Writer = Callable[[Document | None], str]
 
 _MOST_ALIKE = 3  # supports of one size that are listed one by one though they agree
+_FEW_OBLIQUE = 3
 _FEW_AXES = 4  # coordinates up to which a frequency is written as a vector
 
 
@@ -33,7 +35,8 @@ def render(document: Document, form: str) -> str:
     if form == "csv":
         return _csv(document)
     write = _math if form == "latex" else _plain
-    sections = [s for s in (_spectrum(document, write), _variances(document, write)) if s.rows]
+    every = (_spectrum(document, write), *_fits(document), _variances(document, write))
+    sections = [s for s in every if s.rows]
     words, ends = list(_words(document)), list(_ends(document))
     if form == "latex":
         return _latex(words, sections, ends)
@@ -68,7 +71,7 @@ def _latex_cell(text: str) -> str:
 
 
 _FORMULA = re.compile(
-    r"N·P_S|P_S|chi\^2|\bm_?i? = \([^)]*\)|\bm_\w+ = -?\d+|\bN = \d+|N -> oo|\boo\b"
+    r"N·P_S|P_S|N\^e|α|γ|chi\^2|\bm_?i? = \([^)]*\)|\bm_\w+ = -?\d+|\bN = \d+|N -> oo|\boo\b"
 )
 
 
@@ -83,6 +86,7 @@ def _latex_prose(text: str) -> str:
 
 def _set(formula: str) -> str:
     formula = formula.replace("N·P_S", "NP_S").replace("chi", r"\chi").replace("->", r"\to")
+    formula = formula.replace("α", r"\alpha").replace("γ", r"\gamma")
     return re.sub(r"\boo\b", r"\\infty", re.sub(r"_(\d+)", r"_{\1}", formula))
 
 
@@ -122,6 +126,34 @@ def _words(document: Document) -> Iterator[str]:
     if not document["claims"] or any("~" not in c["claim"] for c in document["claims"]):
         matches = ", ".join(document["matches"]) or "none established"
         yield f"  catalogue samplers whose spectrum the points have: {matches}"
+    yield from _structure(document)
+
+
+def blocks_text(document: Document) -> str | None:
+    """The blocks of jointly stratified coordinates in words; None where they are not known."""
+    blocks, dim = document["blocks"], document["plan"]["dim"]
+    if blocks is None or dim == 1:
+        return None
+    if len(blocks) == 1:
+        return "all coordinates are stratified together"
+    if len(blocks) == dim:
+        return "no coordinates are stratified together"
+    told = " ".join("{" + ",".join(map(str, b)) + "}" for b in blocks)
+    return f"stratified together are {told}"
+
+
+def _structure(document: Document) -> Iterator[str]:
+    """Blocks, and the simplest of what does not lie along the axes."""
+    blocks = blocks_text(document)
+    if blocks is not None:
+        yield f"  blocks: {blocks}"
+    for row in document["oblique"][:_FEW_OBLIQUE]:
+        p = row["scaled_power"]
+        high = "oo" if p["high"] is None else format(p["high"], ".3g")
+        yield (
+            f"  off the axes: N·P_S at {frequency_text(row['frequency'])}, N = {row['n']}, is "
+            f"{p['estimate']:.3g} in [{p['low']:.3g}, {high}]: {row['what']}"
+        )
 
 
 def _claim(c: Document, level: float) -> Iterator[str]:
@@ -249,7 +281,7 @@ def _grouped(regions: Sequence[Document]) -> Iterator[tuple[str, list[Document]]
         if g not in members or len(members) <= _MOST_ALIKE:
             yield short(g["region"]), [g]
         elif g is members[0]:
-            kind = {1: "axes", 2: "pairs"}.get(_size(g), f"supports of {_size(g)}")
+            kind = {1: "axes", 2: "pairs", 3: "triples"}.get(_size(g), f"supports of {_size(g)}")
             yield f"{len(members)} {kind}", members
 
 
@@ -280,6 +312,20 @@ def _distance(row: Document) -> tuple[bool, float]:
     width = log(power["high"] / power["low"])
     gap = abs(log(power["estimate"] / predicted))
     return fails, gap / width if width else 0.0
+
+
+def _fits(document: Document) -> tuple[Section, Section]:
+    """Fitted profiles, and the rates that they predict."""
+    profiles = [(short(r[0]), *r[1:]) for r in fit_rows(document)]
+    rates = [(short(r[0]), short(r[1]), *r[2:]) for r in rate_rows(document)]
+    is_claimed = any(r[3] != "-" for r in rates)
+    shown = rates if is_claimed else [r[:3] for r in rates]
+    claimed = ("claimed",) if is_claimed else ()
+    head = tuple(f"{symbol} [95 %]" for symbol in PARAMETERS.values())
+    return (
+        Section(FIT_TITLE, ("region", *head), profiles, 0),
+        Section(RATE_TITLE, ("integrand", "region", "r [95 %]", *claimed), shown, 1),
+    )
 
 
 def _variances(document: Document, write: Writer) -> Section:
@@ -327,6 +373,7 @@ def _ends(document: Document) -> Iterator[str]:
     budget = document["budget_needed_seconds"]
     if budget is not None:
         yield f"Undecided claims need a budget of about {budget:.0f} s."
+    yield from map(short, fit_remarks(document))
     for x in document["left_out"]:
         yield f"Left out, {x['what']}: {x['why']}"
     yield (

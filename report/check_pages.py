@@ -117,6 +117,7 @@ def _main(document: Document, pictures: SpectrumPictures, drawn: Sequence[CheckF
         ("Claims", sections.claims(document)),
         ("Faults", sections.faults(document)),
         ("Figures", joined(*(_figure(document, pictures, f) for f in drawn))),
+        ("Structure", sections.structure(document)),
         ("Neighbours in the catalogue", sections.neighbours(document)),
         ("Left out", sections.left_out(document, pictures.left_out)),
         ("Plan", sections.plan(document)),

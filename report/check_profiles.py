@@ -31,6 +31,7 @@ MOST_PANELS = 9
 
 _MOST_POINTS = 40  # of one region and N
 _FAR = 1.0  # widths of an interval
+_REACH = 10.0  # factor by which intervals widen the vertical axis at most
 _REPORTED = 0.05  # level of the intervals in the document
 
 
@@ -144,7 +145,7 @@ def _drawing(
             _measured(ax, spectrum, index)
             _fitted(ax, profile, spectrum, index)
         log_axis(ax, "x", [r for s in spectra for r in s.radius.tolist()])
-        log_axis(ax, "y", [v for s in spectra for v in _heights(s)])
+        log_axis(ax, "y", _heights(spectra))
         ax.axhline(1.0, color=LIGHT["data5"], linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         ax.set_xlabel("frequency |m|")
         ax.set_ylabel(r"$N\cdot P_S$", parse_math=True)
@@ -155,13 +156,17 @@ def _drawing(
     return draw
 
 
-def _heights(s: RegionSpectrum) -> list[float]:
-    """What the vertical axis must hold, cut off at `FLOOR`."""
-    bounded = np.isfinite(s.high)
-    ends = [*s.power.tolist(), *s.low[bounded].tolist(), *s.high[bounded].tolist(), 1.0]
-    return [max(v, FLOOR) for v in ends] + (
-        [] if s.exact is None else [max(v, FLOOR) for v in s.exact.tolist()]
-    )
+def _heights(spectra: Sequence[RegionSpectrum]) -> list[float]:
+    """What the vertical axis must hold, cut off at `FLOOR`; intervals as far as `_REACH`."""
+    values = [v for s in spectra for v in s.power.tolist()] + [1.0]
+    values += [v for s in spectra if s.exact is not None for v in s.exact.tolist()]
+    values = [max(v, FLOOR) for v in values]
+    least, largest = min(values) / _REACH, max(values) * _REACH
+    for s in spectra:
+        bounded = np.isfinite(s.high)
+        ends = [*s.low[bounded].tolist(), *s.high[bounded].tolist()]
+        values += [max(min(max(v, least), largest), FLOOR) for v in ends]
+    return values
 
 
 def _measured(ax: Any, s: RegionSpectrum, index: int) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from ..theory.samplers import parse_sampler
 from ..theory.tables import Row
 from ..theory.tables import table as convergence_table
-from .check_formats import frequency_text, short
+from .check_formats import blocks_text, frequency_text, short
 from .markup import Content, Html, element, items, joined, prose, table, terms
 from .numerals import exponent, interval, number
 
@@ -204,6 +204,24 @@ def _value(value: Any) -> Content:
     if isinstance(value, str):
         return element("pre", value) if "\n" in value else value
     return json.dumps(value, ensure_ascii=False)
+
+
+def structure(document: Document) -> Html:
+    """Blocks of coordinates, and strata or lattices off the axes."""
+    blocks = blocks_text(document)
+    told = "Which are stratified together is not known." if blocks is None else f"{blocks}."
+    first = element("p", told[0].upper() + told[1:])
+    rows = [
+        (
+            frequency_text(r["frequency"]), str(r["n"]), interval(r["scaled_power"]),
+            prose(r["what"]),
+        )
+        for r in document["oblique"]
+    ]  # fmt: skip
+    if not rows:
+        return first
+    head = ("frequency", "N", prose("N·P_S"), "what it shows")
+    return joined(first, table("Strata or lattices that do not lie along the axes", head, rows))
 
 
 def neighbours(document: Document) -> Html:

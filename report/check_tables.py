@@ -5,6 +5,7 @@ from typing import Any
 
 from ..numerics.measuring.spectrum_pictures import SpectrumPictures
 from .check_figures import merged_profiles
+from .check_fits import falling, fixed, is_class
 from .check_formats import frequency_text, short
 from .check_profiles import monomial_words
 from .check_sections import code
@@ -19,7 +20,9 @@ def tables_of(document: Document, pictures: SpectrumPictures, stem: str) -> Html
     """The numbers of the figure of a stem, folded away; nothing for a figure that has none."""
     match stem:
         case "profiles":
-            tables = [_fits(document, pictures), _spectrum_table(document)]
+            tables = [
+                _fits(document, pictures), _class_table(document), _spectrum_table(document),
+            ]  # fmt: skip
         case "convergence":
             tables = [_slope_table(document), _variance_table(document)]
         case _:
@@ -70,15 +73,36 @@ def _distance(row: Document) -> tuple[bool, float]:
     return row["agrees"] is False, abs(log(power["estimate"] / claimed)) if near else 0.0
 
 
+def _class_table(document: Document) -> Html:
+    """What the fitted profiles predict of classes of integrands."""
+    shown = [r for r in document["rates"] if is_class(r) and r["fitted"]["exponent"] is not None]
+    claimed = any(r["predicted"]["exponent"] for r in shown)
+    rows: list[list[Content]] = []
+    for r in shown:
+        told = exponent(fixed(r["fitted"]["exponent"]))
+        order = prose(exponent(r["predicted"]["exponent"]) + _logarithm(r["predicted"]))
+        rows.append([r["integrand"], short(r["region"]), told, *([order] if claimed else [])])
+    caption = "Exponents r of the variance N^-r that the fitted profiles predict"
+    head = ("class", "region", "r, 95 %", *([prose("claimed, N → ∞")] if claimed else []))
+    return table(caption, head, rows) if rows else Html("")
+
+
+def _logarithm(predicted: Document) -> str:
+    return "" if predicted["log_power"] in (None, "0") else ", log N"
+
+
 def _slope_table(document: Document) -> Html:
+    fitted = {r["integrand"]: r["fitted"]["exponent"] for r in document["rates"]}
     rows: list[list[Content]] = []
     for curve in curves_of(document):
         order = "–" if curve.exponent is None else exponent("-" + curve.exponent)
         logarithm = "" if curve.log_power in (None, "0") else ", log N"
-        region = short(curve.region)
+        region, told = short(curve.region), fitted.get(curve.integrand)
         rows.append([code(short(curve.integrand)), region, interval(curve.slope),
+                     "–" if told is None else exponent(falling(told)),
                      prose(order + logarithm)])  # fmt: skip
-    head = ("integrand", "region", "slope, 95 %", prose("claimed, N → ∞"))
+    head = ("integrand", "region", "slope, 95 %", "of the fitted profile, 95 %",
+            prose("claimed, N → ∞"))  # fmt: skip
     return table("Slopes of the line through log variance", head, rows) if rows else Html("")
 
 

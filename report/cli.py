@@ -218,14 +218,17 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
         raise InputError("check needs a SOURCE and --dim (or --plan): got neither or one")
     if a.plan is not None and (a.claim or a.integrand or a.n or a.seed is not None):
         raise InputError("--plan brings its own claims, integrands, N and seed: got others as well")
-    from ..numerics import check
+    from ..numerics.checking.check_documents import check, check_with_pictures
     from .check_formats import render
 
     folder = None if a.report is None else _report_folder(a.report)
     dim = 1 if a.dim is None else a.dim  # a plan names its own
-    document = check(
-        a.source, dim, a.claim, a.integrand, a.n, a.budget, a.seed or 0, a.plan, _progress
-    )
+    asked = (a.claim, a.integrand, a.n, a.budget, a.seed or 0, a.plan, _progress)
+    pictures = None
+    if folder is None:
+        document = check(a.source, dim, *asked)
+    else:
+        document, pictures = check_with_pictures(a.source, dim, *asked)
     verdicts = {"consistent": DONE, "contradicted": CONTRADICTED, "invalid": CONTRADICTED}
     code = (
         INTERRUPTED if document["interrupted"] else verdicts.get(document["verdict"], INCONCLUSIVE)
@@ -233,7 +236,7 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     if folder is not None:
         from .check_pages import write_report
 
-        written = write_report(document, folder)
+        written = write_report(document, folder, pictures)
         print(f"written to {folder}: {', '.join(p.name for p in written)}", file=sys.stderr)
     return render(document, a.format), code
 

@@ -1,5 +1,6 @@
 """Ball arithmetic: the digits asked for are certified, and no bound is smaller than the error."""
 
+import signal
 from fractions import Fraction
 
 import pytest
@@ -58,3 +59,20 @@ def test_what_an_integrand_raises_is_raised(error):
     with pytest.raises(error, match="stop"):
         integrated(integrand, 0, 1)
     assert calls == 3
+
+
+def test_an_interrupt_ends_an_integral_and_its_value_is_not_used():
+    calls = 0
+
+    def integrand(x, analytic):
+        nonlocal calls
+        calls += 1
+        if calls == 3:
+            signal.raise_signal(signal.SIGINT)
+        return x
+
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        integrated(integrand, 0, 1)
+    assert calls == 3
+    assert signal.getsignal(signal.SIGINT) is before

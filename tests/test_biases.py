@@ -93,9 +93,9 @@ def test_a_fixed_arrangement_is_not_homogenised() -> None:
     assert told.faults == (fault,)
     steady = [m for m, z in means.items() if max(abs(z.real), abs(z.imag)) > 1 / 6]
     shown = {tuple(c["frequency"]): c for c in fault.evidence["coefficients"]}
-    assert steady
-    assert set(steady) <= set(shown)
-    assert len(shown) == fault.evidence["failing"]
+    assert 1 <= len(steady) <= fault.evidence["failing"]
+    assert len(shown) == min(fault.evidence["failing"], 8)
+    assert len(set(steady) & set(shown)) == min(len(steady), 8)
     for m, c in shown.items():
         assert complex(c["real"], c["imaginary"]) == pytest.approx(means[m])
     assert "measured spectra hold, since a shift leaves them as they are" in fault.detail

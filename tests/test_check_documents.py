@@ -112,7 +112,7 @@ def test_what_a_budget_cut_short_is_replayed(tmp_path):
     path.write_text(json.dumps(plan))
     again = check([], 2, plan=path)
     assert (again["verdict"], again["faults"], again["n_range"]) == ("inconclusive", [], None)
-    assert again["plan"] == plan | {"frequencies": {}}
+    assert again["plan"] == plan | {"frequencies": {}, "fitted": 0}
 
 
 def test_a_late_fault_is_replayed_at_its_place(tmp_path):
@@ -132,7 +132,9 @@ def test_files_replay_too(tmp_path):
     (tmp_path / "plan.json").write_text(json.dumps(found))
     assert text_of(check([], 2, plan=tmp_path / "plan.json")) == text_of(found)
     step = {"n": 16, "replicates": 70, "attempted": 70, "shifts": 70}
-    assert found["plan"]["ladder"] == [step]
+    (row,) = found["plan"]["ladder"]
+    assert row == row | step
+    assert sum(length * times for length, times in row["chunks"]) == row["replicates"]
 
 
 def test_shifts_of_a_frozen_file_replay(tmp_path):
@@ -141,7 +143,9 @@ def test_shifts_of_a_frozen_file_replay(tmp_path):
     (tmp_path / "plan.json").write_text(json.dumps(found))
     assert text_of(check([], 2, plan=tmp_path / "plan.json")) == text_of(found)
     step = {"n": 16, "replicates": 1, "attempted": 1, "shifts": 1024}
-    assert found["plan"]["ladder"] == [step]
+    (row,) = found["plan"]["ladder"]
+    assert row == row | step
+    assert sum(length * times for length, times in row["chunks"]) == row["replicates"]
 
 
 def test_seeds_matter():

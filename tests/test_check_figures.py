@@ -1,10 +1,11 @@
 """The figures of a check: which regions and integrands are drawn, and what is said of the rest."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
 import pytest
-from check_examples import example, pictures, profile
+from check_examples import example, pictures, plane, profile
 
 pytest.importorskip("matplotlib")
 
@@ -15,6 +16,7 @@ from specrate.numerics.measuring.spectrum_pictures import (
     RegionSpectrum,
     SpectrumPictures,
 )
+from specrate.report import check_profiles
 from specrate.report.check_convergence import convergence_panels, time_panels
 from specrate.report.check_figures import figures, merged_profiles
 from specrate.report.check_profiles import (
@@ -196,7 +198,7 @@ def test_variances_that_are_rounding_errors_are_named():
         ("contradicted", [0, 3, 4, 4], "averaged no periodogram on a plane"),
         ("raising", [0, 0, 0, 0], "Nothing was measured. No variance was measured."),
         ("exponent", [0, 0, 1, 1], "No spectrum was measured: only exponents are claimed."),
-        ("wide", [0, 9, 5, 5], "47 more regions have a spectrum in check.json"),
+        ("wide", [0, 9, 5, 5], "167 more regions have a spectrum in check.json"),
     ],
 )
 def test_what_is_missing_is_named(name, panels, missing):
@@ -215,3 +217,17 @@ def test_captions_tell_what_is_there_and_no_more():
     assert "fitted profile" in told[1].caption
     assert told[0].paired
     assert "shaded within 25% of it" in told[2].caption
+
+
+def test_intervals_widen_the_axis_by_ten_at_most():
+    """An interval up to 10^9 would flatten everything else."""
+    wide = RegionSpectrum(16, 2, np.array([1.0, 2.0]), np.array([0.1, 1.0]),
+                          np.array([1e-9, 0.9]), np.array([1e9, 1.1]))  # fmt: skip
+    heights = check_profiles._heights([wide])
+    assert (min(heights), max(heights)) == (pytest.approx(0.01), pytest.approx(10.0))
+
+
+def test_the_caption_names_an_exact_spectrum_only_where_there_is_one():
+    claimed, bare = pictures(), SpectrumPictures((replace(plane(), exact=None),))
+    captions = [figures(example("consistent"), p)[0].caption for p in (claimed, bare)]
+    assert ["exact spectrum" in c for c in captions] == [True, False]

@@ -81,9 +81,9 @@ def test_columns_of_a_claim_are_absent_without_one(unclaimed: Document) -> None:
 def test_many_regions_that_agree_are_one_line_per_size_and_n(wide: Document) -> None:
     rows = lines_between(render(wide, "terminal"), "Power spectrum")
     labels = [r.split("  ")[0] for r in rows if not r.startswith(" ")]
-    assert labels == ["10 axes", "45 pairs", "1..10"]
-    assert len(rows) == 3 * 2
-    assert len(wide["regions"]) == 56  # the document keeps them all
+    assert labels == ["10 axes", "45 pairs", "120 triples", "1..10"]
+    assert len(rows) == 4 * 2
+    assert len(wide["regions"]) == 176  # the document keeps them all
 
 
 def test_regions_that_disagree_are_never_summarised() -> None:
@@ -104,9 +104,11 @@ def test_extremes_of_alike_regions_without_a_claim(unclaimed: Document) -> None:
 
 def test_no_line_of_a_table_is_too_wide(wide: Document, contradicted: Document) -> None:
     for document in (wide, contradicted):
-        for table in ("Power spectrum", "Variance on"):
-            rows = lines_between(render(document, "terminal"), table)
-            assert max(map(len, rows)) <= 120
+        for table in ("Power spectrum", "Profiles fitted", "Exponents r", "Variance on"):
+            text = render(document, "terminal")
+            if table in text:
+                assert max(map(len, lines_between(text, table))) <= 120
+    assert "Profiles fitted" in render(contradicted, "terminal")
 
 
 def test_csv_has_numbers_in_columns(contradicted: Document) -> None:
@@ -145,7 +147,16 @@ def test_markdown_leads_with_the_verdict(contradicted: Document) -> None:
 
 def test_faults_come_second() -> None:
     points = {"verdict": "invalid", "plan": {"sources": ["x.py:f"], "dim": 2}, "n_range": None}
-    rest = {"claims": [], "matches": [], "regions": [], "points": [], "rates": [], "left_out": []}
+    rest = {
+        "blocks": None,
+        "oblique": [],
+        "claims": [],
+        "matches": [],
+        "regions": [],
+        "points": [],
+        "rates": [],
+        "left_out": [],
+    }
     numbers = {
         "seconds": 0.1,
         "level": 1e-9,

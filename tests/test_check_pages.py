@@ -21,7 +21,15 @@ from specrate.report.check_pages import page, write_report
 from specrate.theory.errors import InputError
 
 EMPTY = {"meta", "br", "link"}
-SECTIONS = ["Claims", "Faults", "Figures", "Neighbours in the catalogue", "Left out", "Plan"]
+SECTIONS = [
+    "Claims",
+    "Faults",
+    "Figures",
+    "Structure",
+    "Neighbours in the catalogue",
+    "Left out",
+    "Plan",
+]
 SHOWN = {
     "consistent": None,
     "contradicted": pictures(),

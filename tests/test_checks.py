@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from specrate.numerics.checking import checks
+from specrate.numerics.checking import checks, trials
 from specrate.numerics.checking.check_documents import check, document
 from specrate.numerics.checking.checks import run_check
 from specrate.numerics.checking.designs import design
-from specrate.numerics.checking.judgements import judgements
+from specrate.numerics.checking.judgements import FIRST, judgements
 from specrate.numerics.point_sources.child_processes import Limits, OutOfTime
 from specrate.numerics.point_sources.pointfiles import write_text
 from specrate.numerics.streams import stream
@@ -192,7 +192,8 @@ def test_other_dimensions(dim):
     found = check("random", dim, ["random"], budget=0.2)
     assert found["verdict"] != "contradicted"
     assert found["plan"]["dim"] == dim
-    assert {len(r["region"].split(",")) for r in found["regions"]} == {1, min(2, dim), dim}
+    sizes = {len(r["region"].split(",")) for r in found["regions"]}
+    assert sizes == {size for size in (1, 2, 3, dim) if size <= dim}
 
 
 def test_integrands_are_measured_besides_the_probes():
@@ -216,23 +217,25 @@ def test_a_slow_sampler_ends_with_the_budget():
 
 
 def test_an_interruption_keeps_what_was_measured(monkeypatch):
-    """Control-C when the first N has been measured."""
-    whole = checks.grow
+    """Control-C when the first N has been measured, and two realisations of each other one."""
+    whole = trials.grow
 
-    def grow(m, *arguments):
-        if m.n > 16:
+    def grow(m, source, seed, replicates, *arguments):
+        if m.n > 16 and replicates == FIRST:
             raise KeyboardInterrupt
-        whole(m, *arguments)
+        whole(m, source, seed, replicates, *arguments)
 
-    monkeypatch.setattr(checks, "grow", grow)
+    monkeypatch.setattr(trials, "grow", grow)
     state = run_check([own("rooks")], 2, ["latin-hypercube"], budget=60)
     assert state.ended == "interrupted"
-    assert [m.replicates for m in state.measurements] == [128, 0, 0]
+    assert state.measurements[0].replicates == FIRST
+    assert all(m.replicates < FIRST for m in state.measurements[1:])
     assert state.design.source.process.running is None
     found = document(state)
     assert found["interrupted"]
     assert found["verdict"] == "inconclusive"
-    assert len(found["points"]) == len({p["integrand"] for p in found["points"]})
+    assert {p["replicates"] for p in found["points"] if p["n"] == 16} == {FIRST}
+    assert "the check was interrupted" in {x["why"] for x in found["left_out"]}
 
 
 @pytest.mark.parametrize("budget", [0, -1, float("inf"), float("nan")])

@@ -21,7 +21,6 @@ def own(name):
         (own("half_jitter"), 2, "jitter", "2"),
         (own("half_jitter"), 3, "jitter", "2"),
         (own("wide_jitter"), 2, "jitter", "1"),
-        (own("coupled"), 3, "random", None),
         ("random", 2, "latin-hypercube", "1"),
         ("jitter", 2, "latin-hypercube", "1"),
         (own("rooks"), 2, "jitter", "1"),
@@ -39,10 +38,17 @@ def test_wrong_designs_are_contradicted_and_the_region_named(word, dim, claim, r
     (told,) = found["claims"]
     assert told["holds"] is False
     assert told["witness"]["region"] == region
-    if region is None:
-        assert told["witness"]["what"] == "variance"
-        assert told["witness"]["at"].endswith("axes=(1,2,3)")
     assert found["seconds"] < 10
+
+
+def test_a_triple_that_no_pair_shows_is_found():
+    """x + y - z = 0 modulo 1: F(1, 1, -1) is 1 in all realisations, so that no shift was drawn."""
+    found = check(own("coupled"), 3, ["random"], budget=20)
+    assert found["verdict"] == "invalid"
+    assert {f["kind"] for f in found["faults"]} == {"not homogenised"}
+    (told,) = found["claims"]
+    assert told["holds"] is False
+    assert told["witness"]["region"] == "1,2,3"
 
 
 def test_only_the_region_at_fault_disagrees():

@@ -88,7 +88,10 @@ def test_point_files_bring_their_own_n(tmp_path):
         ("axis/best ~ 2", 2, ["bernoulli:k=6", "bernoulli:k=6,axes=2"]),
         ("1/best ~ 2", 3, ["bernoulli:k=6"]),
         ("generic/worst ~ 2", 3, ["bernoulli:k=1,axes=(1,2,3)"]),
-        ("axis/additive ~ 2", 2, ["bernoulli:k=1", "bernoulli:k=1,axes=2"]),
+        ("axis/additive ~ 2", 2, ["additive:k=1"]),
+        ("overall/additive:k=2 ~ 3", 3, ["additive:k=2"]),
+        ("w=1/additive:k=3 ~ 3", 2, ["additive:k=3"]),
+        ("2/additive:k=2 ~ 3", 2, ["bernoulli:k=2,axes=2"]),
         ("w=2/p=5 ~ 1", 2, ["bernoulli:k=2,axes=(1,2)"]),
         ("overall/disk:radius=0.3 ~ 1", 2, ["disk:radius=0.3"]),
         ("2/bernoulli:k=2,axes=2 ~ 1", 2, ["bernoulli:k=2,axes=2"]),
@@ -109,6 +112,10 @@ def test_probes_of_a_rate(text, dim, names):
         ("generic/p=26.5 ~ 1", r"p - s is 1, 3, 5"),
         ("axis/p=100 ~ 1", r"p - s is 1, 3, 5"),
         ("overall/product:k=13 ~ 1", "1 <= k <= 12"),
+        ("overall/additive:k=13 ~ 1", "1 <= k <= 12"),
+        ("1/additive:k=13 ~ 1", "1 <= k <= 12"),
+        ("generic/additive:k=2 ~ 1", "power on the axes alone"),
+        ("1,2/additive ~ 1", "power on the axes alone"),
     ],
 )
 def test_rates_that_cannot_be_probed(text, message):

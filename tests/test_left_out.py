@@ -47,5 +47,6 @@ def test_a_decay_faster_than_claimed_is_explained():
 @pytest.mark.parametrize("dim", [2, 5])
 def test_supports_that_are_not_probed_are_named(dim):
     found = check("random", dim, ["random"], counts=[32], budget=0.2)
-    assert ("supports of 3 coordinates and more" in told(found)) == (dim > 3)
+    assert ("spectra on other supports" in told(found)) == (dim > 3)
+    assert ("variances on other supports" in told(found)) == (dim > 3)
     assert np.isfinite(found["seconds"])

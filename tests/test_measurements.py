@@ -96,6 +96,35 @@ def test_no_chunk_is_begun_after_the_deadline():
     assert found.replicates == found.attempted == 64
 
 
+def test_chunks_may_be_of_any_length_and_are_written_down():
+    lengths = iter([2, 5, 64, 64])
+    found = fresh()
+    grow(found, CatalogueSource(parse_sampler("random", 2)), 3, 100, length=lambda m: next(lengths))
+    assert found.chunks == [2, 5, 64, 29]
+    assert found.replicates == found.attempted == found.shifts == 100
+    points = kept_points(found)
+    assert len(np.unique(points[:, 0, 0])) == 100  # no two chunks have one stream
+    again = fresh()
+    lengths = iter(found.chunks)
+    grow(again, CatalogueSource(parse_sampler("random", 2)), 3, 100, length=lambda m: next(lengths))
+    assert again.power == found.power
+    assert again.shifted == found.shifted
+
+
+def test_replicates_of_a_callable_follow_on_whatever_the_chunks():
+    whole, parts = fresh(), fresh()
+    lengths = iter([1, 2, 64])
+    grow(whole, of(points), 5, 60)
+    grow(parts, of(points), 5, 60, length=lambda m: next(lengths))
+    np.testing.assert_array_equal(kept_points(parts), kept_points(whole))
+
+
+def test_where_no_chunk_is_to_be_begun_none_is():
+    found = fresh()
+    grow(found, of(points), 0, 10, length=lambda m: 0)
+    assert (found.replicates, found.attempted, found.cost) == (0, 0, None)
+
+
 def test_out_of_time_leaves_what_was_measured():
     class Late(Sleeper):
         def realise(self, n, seed, replicates):

@@ -4,8 +4,8 @@ from dataclasses import replace
 from math import inf
 
 import pytest
-from specrate.numerics.checking.checks import _MOST, _bias_level, run_check
 from specrate.numerics.checking.checks import LOOKS as CHECK_LOOKS
+from specrate.numerics.checking.checks import MOST, _bias_level, run_check
 from specrate.numerics.checking.faults import COINCIDENCE_LEVEL
 from specrate.numerics.checking.judgements import FIRST
 from specrate.numerics.checking.verdicts import (
@@ -94,7 +94,7 @@ def test_holding_is_judged_at_the_equivalence_level():
 
 
 def test_looks_cover_all_rounds_and_the_last_word():
-    rounds = (_MOST // FIRST).bit_length()
+    rounds = (MOST // FIRST).bit_length()
     assert rounds + 1 <= LOOKS
     assert CHECK_LOOKS == LOOKS
 

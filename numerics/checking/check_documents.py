@@ -4,18 +4,24 @@
 """
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from importlib.metadata import version
+from itertools import groupby, repeat
 from pathlib import Path
 from typing import Any, cast
 
 from ...theory.errors import InputError
 from ...theory.samplers import Sampler
+from ..measuring.measurements import Measurement
+from ..measuring.spectrum_pictures import SpectrumPictures
 from ..point_sources.fault_kinds import Fault
 from .check_evidence import claim, points, rates, regions
+from .check_pictures import pictures_of
 from .checks import Execution, Step, run_check
+from .fit_evidence import with_fitted_rates, with_profiles
 from .judgements import Judgement, State, judgements, matching, seconds_needed
 from .left_out import left_out
+from .structures import Structures, as_rows, structures_in
 from .verdicts import EQUIVALENCE_LEVEL, FALSE_ALARM, MARGIN, Outcome, exponent_margin
 
 Document = dict[str, Any]
@@ -67,18 +73,45 @@ def check(
     InputError
         If anything asked for is unusable.
     """
+    asked = (claims, integrands, counts, budget, seed, plan, progress)
+    return document(_state(sources, dim, *asked))
+
+
+def check_with_pictures(
+    sources: Sequence[str] | str,
+    dim: int,
+    claims: Sequence[str] = (),
+    integrands: Sequence[str] = (),
+    counts: Sequence[int] = (),
+    budget: float = 10.0,
+    seed: int = 0,
+    plan: str | Path | None = None,
+    progress: Callable[[str], None] = lambda text: None,
+) -> tuple[Document, SpectrumPictures]:
+    """As `check`, with pictures of the spectrum for the page, a second or so beyond the budget."""
+    asked = (claims, integrands, counts, budget, seed, plan, progress)
+    state = _state(sources, dim, *asked)
+    return document(state), pictures_of(state)
+
+
+def _state(
+    sources: Sequence[str] | str,
+    dim: int,
+    claims: Sequence[str],
+    integrands: Sequence[str],
+    counts: Sequence[int],
+    budget: float,
+    seed: int,
+    plan: str | Path | None,
+    progress: Callable[[str], None],
+) -> State:
+    """What was asked, measured, or a plan's measurements again."""
     words = [sources] if isinstance(sources, str) else list(sources)
     if plan is None:
-        state = run_check(words, dim, claims, integrands, counts, budget, seed, None, progress)
-    else:
-        old = read_plan(Path(plan))
-        words = words or old["sources"]
-        asked = old.get("asked", ())
-        again = _execution(old)
-        state = run_check(
-            words, old["dim"], old["claims"], old["integrands"], asked, budget, old["seed"], again
-        )
-    return document(state)
+        return run_check(words, dim, claims, integrands, counts, budget, seed, None, progress)
+    old = read_plan(Path(plan))
+    asked = (old["claims"], old["integrands"], old.get("asked", ()), budget, old["seed"])
+    return run_check(words or old["sources"], old["dim"], *asked, _execution(old))
 
 
 def read_plan(path: Path) -> Document:
@@ -98,6 +131,7 @@ def read_plan(path: Path) -> Document:
         raise InputError(f"{rule}: got {error} in {path}") from None
     plan: Any = found.get("plan", found) if isinstance(found, dict) else None  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
     wanted = {"sources", "dim", "claims", "integrands", "seed", "ladder", "ended", "call_seconds"}
+    wanted |= {"fitted"}
     if not isinstance(plan, dict) or not wanted <= set(cast("dict[str, Any]", plan)):
         raise InputError(f"{rule}: got another document in {path}")
     found_plan = cast(Document, plan)
@@ -118,25 +152,39 @@ def _is_step(row: Any) -> bool:
 
 def _execution(plan: Document) -> Execution:
     """What a plan says was executed."""
-    names = Step._fields
-    steps = tuple(Step(*(row[name] for name in names)) for row in plan["ladder"])
-    return Execution(steps, plan["ended"], plan["call_seconds"], plan.get("unanswered"))
+    steps = tuple(_step_of(row) for row in plan["ladder"])
+    told = plan["ended"], plan["call_seconds"], plan.get("unanswered"), plan["fitted"]
+    return Execution(steps, *told)
+
+
+def _step_of(row: Document) -> Step:
+    told: Document = {name: row[name] for name in Step._fields}
+    told["chunks"] = tuple(_lengths(row["chunks"]))
+    return Step(**told)
+
+
+def _lengths(runs: Sequence[Sequence[int]]) -> Iterator[int]:
+    """The lengths of chunks, from pairs of a length and how often it comes in a row."""
+    for length, times in runs:
+        yield from repeat(length, times)
 
 
 def document(state: State) -> Document:
     """The JSON document of a check."""
     found, matched = judgements(state), matching(state)
-    measured = [m.n for m in state.measurements if m.replicates]
+    shown = structures_in(state.scans) if state.scans else None
+    measured = [m.n for m in state.measurements if m.replicates and not m.dropped]
     return {
         "verdict": verdict(state, found, matched),
         "faults": [_fault(f) for f in state.faults],
-        "regions": regions(state, found),
-        "blocks": None,
-        "rates": rates(state, found),
+        "regions": with_profiles(regions(state, found), state.fitted),
+        "blocks": _blocks(shown),
+        "oblique": [] if shown is None else as_rows(shown),
+        "rates": with_fitted_rates(state, rates(state, found)),
         "points": points(state),
         "claims": [claim(j) for j in found],
         "matches": [s.name for s, outcome in matched if outcome == "holds"],
-        "left_out": left_out(state, found),
+        "left_out": left_out(state, found, shown),
         "n_range": [measured[0], measured[-1]] if measured else None,
         "level": state.level,
         "false_alarm": FALSE_ALARM,
@@ -148,6 +196,10 @@ def document(state: State) -> Document:
         "plan": _plan(state),
         "seconds": state.seconds,
     }
+
+
+def _blocks(shown: Structures | None) -> list[list[int]] | None:
+    return None if shown is None or shown.blocks is None else [list(b) for b in shown.blocks]
 
 
 def _fault(fault: Fault) -> Document:
@@ -178,6 +230,18 @@ def verdict(
     return "consistent" if enough and all(o == "holds" for o in outcomes) else "inconclusive"
 
 
+def _step(m: Measurement) -> Document:
+    chunks = [[length, len(list(run))] for length, run in groupby(m.chunks)]
+    return {
+        "n": m.n,
+        "replicates": m.replicates,
+        "attempted": m.attempted,
+        "shifts": m.shifts,
+        "chunks": chunks,
+        "dropped": m.dropped,
+    }
+
+
 def _plan(state: State) -> Document:
     asked = state.design
     return {
@@ -187,10 +251,9 @@ def _plan(state: State) -> Document:
         "claims": [c.text for c in asked.claims],
         "integrands": [f.name for f in asked.integrands],
         "seed": asked.seed,
-        "ladder": [
-            Step(m.n, m.replicates, m.attempted, m.shifts)._asdict() for m in state.measurements
-        ],
+        "ladder": [_step(m) for m in state.measurements],
         "ended": state.ended,
+        "fitted": len(state.fitted),
         "call_seconds": state.limits.call,
         "unanswered": state.unanswered,
         "frequencies": {str(m.n): [list(k) for k in m.frequencies] for m in state.measurements},

@@ -27,7 +27,8 @@ _REPORTED = 0.05
 """Level of the intervals that are only reported; decisions use far smaller ones."""
 
 
-def _interval(found: Interval) -> Document | None:
+def interval_row(found: Interval) -> Document | None:
+    """The interval as the document has it; None if nothing is known."""
     if not isfinite(found.estimate):
         return None
     high = found.high if isfinite(found.high) else None
@@ -52,7 +53,13 @@ def regions(state: State, found: Sequence[Judgement]) -> list[Document]:
             row = _spectrum_row(m, k, None if exact is None else exact[k], failing)
             rows[support_of_frequency(k)].append(row)
     return [
-        {"region": _named(support), "profile": [], "outside_model": None, "spectrum": spectrum}
+        {
+            "region": _named(support),
+            "profile": [],
+            "outside_model": None,
+            "reason": None,
+            "spectrum": spectrum,
+        }
         for support, spectrum in rows.items()
     ]
 
@@ -63,16 +70,19 @@ def _spectrum_row(
     exact: float | None,
     failing: Collection[tuple[int, Frequency | str]],
 ) -> Document:
-    """One frequency at one N; one realisation has one |F_S(k)|², which excludes nothing."""
+    """One frequency at one N; one realisation has one |F_S(k)|², which excludes nothing.
+
+    Of an N that was dropped nothing is compared.
+    """
     if m.replicates >= 2 and not m.is_frozen:
         power = variance_interval(m.power[k], _REPORTED)
-        agrees = None if exact is None else (m.n, k) not in failing
+        agrees = None if exact is None or m.dropped is not None else (m.n, k) not in failing
     else:
         power, agrees = Interval(m.power[k].mse, 0.0, inf), None
     return {
         "n": m.n,
         "frequency": list(k),
-        "scaled_power": _interval(scaled(power, m.n)),
+        "scaled_power": interval_row(scaled(power, m.n)),
         "predicted": None if exact is None else f"{m.n * exact:.12g}",
         "agrees": agrees,
     }
@@ -123,8 +133,8 @@ def _rate(
             "log_power": None if order is None else str(order.log_power),
         },
         "measured": {
-            "slope": None if fit is None else _interval(fit.slope),
-            "local_slopes": [] if fit is None else [_interval(s) for s in fit.local_slopes],
+            "slope": None if fit is None else interval_row(fit.slope),
+            "local_slopes": [] if fit is None else [interval_row(s) for s in fit.local_slopes],
         },
         "agrees": agrees,
     }
@@ -144,7 +154,9 @@ def predicted_order(sampler: Sampler, integrand: Integrand) -> Order | None:
     for region in supports:
         q = shell_exponent(decay, layout, region)
         if q is not None:
-            orders += [m.order_at(q, (), decay.is_product) for m in profile_of(sampler, region)]
+            orders += [
+                m.order_at(q, (), decay.is_product) for m in profile_of(sampler, region, decay)
+            ]
     return slowest(orders)
 
 
@@ -156,10 +168,10 @@ def _point(m: Measurement, integrand: Integrand, exact: ExactVariance | None) ->
         "n": m.n,
         "replicates": m.shifts,
         "realisations": 1 if m.is_frozen else m.replicates,
-        "variance": _interval(variance_interval(moved, _REPORTED)),
-        "raw_variance": _interval(spread_interval(raw, _REPORTED)) if is_repeated else None,
-        "raw_mse": _interval(variance_interval(raw, _REPORTED)) if is_repeated else None,
-        "bias": _interval(bias_interval(raw)) if is_repeated else None,
+        "variance": interval_row(variance_interval(moved, _REPORTED)),
+        "raw_variance": interval_row(spread_interval(raw, _REPORTED)) if is_repeated else None,
+        "raw_mse": interval_row(variance_interval(raw, _REPORTED)) if is_repeated else None,
+        "bias": interval_row(bias_interval(raw)) if is_repeated else None,
         "exact": None if exact is None else f"{float(exact.value):.15g}",
         "exact_error_bound": None if exact is None else _bound(exact),
         "seconds": m.seconds,
@@ -209,7 +221,7 @@ def _witness(c: Comparison) -> Document:
         "region": _named(support_of_frequency(c.at)) if not isinstance(c.at, str) else None,
         "at": list(c.at) if spectrum else c.at,
         "n": c.n,
-        "measured": _interval(scaled(c.measured, factor)),
+        "measured": interval_row(scaled(c.measured, factor)),
         "predicted": factor * c.predicted,
         "ratio": gap if isfinite(gap) else None,
         "decades": abs(log(gap)) / log(10) if gap > 0 and isfinite(gap) else None,

@@ -1,19 +1,29 @@
 """Is this sampler what it claims to be? Faults first, then spectra, variances and exponents.
 
 The check draws realisations at a ladder of N, in rounds that double, and after each round compares
-what it has with every claim; it stops when all are decided, or the budget is spent. What was
-executed is written down as a plan, which replays to the same document.
+what it has with every claim; it stops when all are decided, or the budget is spent. A few
+realisations at each N come first: N of which a first round would not end in time are dropped, the
+largest first. At the end profiles are fitted, for which time is set aside. What was executed is
+written down as a plan, which replays to the same document.
 """
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, repeat
+from time import perf_counter
 from typing import Any, NamedTuple
 
 from ...theory.claims import SamplerClaim
 from ...theory.errors import InputError
-from ..measuring.measurements import Measurement, grow, homogenise, kept_amplitudes, kept_points
-from ..point_sources.catalogue_source import chunk_size
+from ..measuring.measurements import (
+    Measurement,
+    grow,
+    homogenise,
+    kept_amplitudes,
+    kept_points,
+    whole_chunks,
+)
+from ..measuring.moments import special
 from ..point_sources.child_processes import Limits, OutOfTime, unanswered
 from ..point_sources.child_source import ChildSource, global_state_fault
 from ..point_sources.command_source import CommandSource, seed_fault
@@ -21,25 +31,34 @@ from ..point_sources.fault_kinds import Fault, fault_of
 from ..point_sources.realisations import SamplerFault
 from .designs import all_frequencies, all_integrands, design, fault_of_count, ladder
 from .faults import BIAS_LEVEL, COINCIDENCE_LEVEL, find_faults
+from .fitted_profiles import FittedRegion, fit_seconds, fitted_regions, fitted_supports
 from .judgements import FIRST, State, judgements, matching
+from .structures import scans_of
+from .trials import MOST, grow_to, reachable, tried
 from .verdicts import FALSE_ALARM, LOOKS, Outcome, spectrum_predictions, variance_predictions
 
-_MOST = 1 << 14  # replicates at most
-_SHIFTS = 1024  # random shifts of a frozen point set
 _CELLS = (4, 5, 6, 7, 8)  # waves of the density along an axis that the search for faults adds
 _FAULT_SHARE = 0.5  # of the false alarms, allowed to the search for faults
+_SCAN_SHARE = 0.1  # and to frequencies that are scanned once, at the end
 _CALL = 60.0  # seconds for one realisation, or the whole budget if that is less
 _SILENT = 1 / 3  # of the budget: a sampler that is silent for less is not blamed
 _SHORTEST = 0.5  # seconds of silence
+_SET_ASIDE = 0.2  # of the budget, at most, for the fits
 
 
 class Step(NamedTuple):
-    """What was executed at one N: realisations measured and asked for, and random shifts."""
+    """What was executed at one N: realisations measured and asked for, and random shifts.
+
+    ``chunks`` of them were drawn together; where nothing is said, the largest ones. ``dropped``
+    says why no more is measured at this N.
+    """
 
     n: int
     replicates: int
     attempted: int
     shifts: int
+    chunks: tuple[int, ...] = ()
+    dropped: str | None = None
 
 
 @dataclass(frozen=True)
@@ -55,12 +74,15 @@ class Execution:
         Limit of time of one realisation.
     unanswered : dict, optional
         As in `State`.
+    fitted : int
+        Regions whose profiles are fitted.
     """
 
     steps: tuple[Step, ...]
     ended: str = "decided"
     call_seconds: float = _CALL
     unanswered: dict[str, Any] | None = None
+    fitted: int = 0
 
 
 def run_check(
@@ -86,7 +108,7 @@ def run_check(
     counts : sequence of int
         N to measure at; empty: chosen.
     budget : float
-        Seconds, a cap.
+        Seconds, a cap on what is begun: nothing is of which it is known that it cannot end in time.
     seed : int
     again : Execution, optional
         Exactly this is executed, whatever the budget: the replay of a plan.
@@ -100,12 +122,13 @@ def run_check(
     """
     if not 0 < budget < float("inf"):
         raise InputError(f"--budget must be a positive number of seconds: got {budget}")
-    began = time.perf_counter()
+    began = perf_counter()
     limits = Limits(min(_CALL, budget), deadline=began + budget)
     if again is not None:
         limits = Limits(again.call_seconds)
     asked = design(words, dim, claims, integrands, seed, limits)
     state = State(asked, FALSE_ALARM, [], tuple(counts), budget, limits)
+    special()  # an import that would be taken for the time of a first judgement
     try:
         _execute(state, again, progress)
     finally:
@@ -115,7 +138,10 @@ def run_check(
         _look_for_faults(state, m)
     if state.faults and state.ended != "interrupted":
         state.ended = "fault"
-    state.seconds = time.perf_counter() - began
+    if state.ended not in ("fault", "interrupted"):
+        state.scans = scans_of(state.measurements, _scan_level(state))
+    state.fitted = tuple(_fits(state, again, began + budget))
+    state.seconds = perf_counter() - began
     return state
 
 
@@ -178,7 +204,8 @@ def _prepare(state: State, counts: Sequence[int]) -> None:
                 tests += len(spectrum) + len(variances[m.n])
     if not asked.claims:  # the true sampler must stay among the matches
         tests = sum(len(m.frequencies) for m in state.measurements)
-    state.level = (1 - _FAULT_SHARE) * FALSE_ALARM / (max(tests, 1) * LOOKS)
+    share = 1 - _FAULT_SHARE - _SCAN_SHARE
+    state.level = share * FALSE_ALARM / (max(tests, 1) * LOOKS)
 
 
 def _look_for_other_randomness(state: State) -> None:
@@ -192,10 +219,38 @@ def _look_for_other_randomness(state: State) -> None:
     state.faults += [] if found is None else [found]
 
 
+def _scan_level(state: State) -> float:
+    """Of the scans against one claimed sampler."""
+    return _SCAN_SHARE * FALSE_ALARM / max(1, len(state.design.claimed_samplers))
+
+
 def _bias_level(state: State) -> float:
     """Of one search for faults: there is one at each N, and coincidences have their part."""
     share = _FAULT_SHARE * FALSE_ALARM / len(state.measurements)
     return min(BIAS_LEVEL, share - COINCIDENCE_LEVEL)
+
+
+def _fits(state: State, again: Execution | None, end: float) -> Iterator[FittedRegion]:
+    """Fitted profiles, as many as end in time or a plan says; none of what says nothing."""
+    if state.ended in ("fault", "interrupted"):
+        return
+    longest = fit_seconds(state.design.dim, [m.n for m in state.measurements if m.replicates > 1])
+    regions, done = fitted_regions(state.measurements, state.design.dim), 0
+    began = perf_counter()
+    while done < again.fitted if again is not None else began + longest <= end:
+        found = next(regions, None)
+        if found is None:
+            return
+        yield found
+        done, now = done + 1, perf_counter()
+        longest, began = max(longest, now - began), now
+
+
+def _end_of_measuring(state: State) -> float:
+    """The deadline, less the time for the fits if they are a small part of the budget."""
+    each = fit_seconds(state.design.dim, [m.n for m in state.measurements])
+    aside = each * len(fitted_supports(state.design.dim))
+    return state.limits.deadline - (aside if aside <= _SET_ASIDE * state.budget else 0.0)
 
 
 def _replay(state: State, again: Execution) -> None:
@@ -211,8 +266,10 @@ def _replay(state: State, again: Execution) -> None:
     source, seed = state.design.source, state.design.seed
     executed = [(m, steps[m.n]) for m in state.measurements if steps]
     for m, step in executed:
-        grow(m, source, seed, step.replicates)
+        lengths = chain(step.chunks, repeat(whole_chunks(m)))
+        grow(m, source, seed, step.replicates, length=lambda _, rest=lengths: next(rest))
         homogenise(m, seed, step.shifts)
+        m.dropped = step.dropped
     for m, step in executed:
         grow(m, source, seed, step.attempted)
     state.ended, state.unanswered = again.ended, again.unanswered
@@ -220,38 +277,25 @@ def _replay(state: State, again: Execution) -> None:
 
 def _measure(state: State, progress: Callable[[str], None]) -> None:
     """Rounds of doubling size, until all is decided, exhausted or late."""
+    end = _end_of_measuring(state)
+    running = tried(state, end)
     target = FIRST
-    while target <= _MOST:
-        for m in state.measurements:
-            if not _grow_to(state, m, target):
+    while target <= MOST:
+        for m in running:
+            if not grow_to(state, m, target, end):
                 state.ended = "budget"
                 return
             _look_for_faults(state, m)
         if state.faults:
             return
+        began = perf_counter()
         outcomes: list[Outcome] = [j.outcome for j in judgements(state)]
-        progress(f"{target} realisations at N = {', '.join(str(m.n) for m in state.measurements)}")
-        exhausted = all(_reachable(state, m, _MOST) == m.replicates for m in state.measurements)
+        progress(f"{target} realisations at N = {', '.join(str(m.n) for m in running)}")
+        exhausted = all(reachable(state, m, MOST) == m.replicates for m in running)
         if exhausted or _is_decided(state, outcomes):
             return
+        end -= perf_counter() - began  # the last judgement comes when the measuring is over
         target *= 2
-
-
-def _grow_to(state: State, m: Measurement, target: int) -> bool:
-    """Measure until the target, or as far as there is something; False if it is late."""
-    source, seed, deadline = state.design.source, state.design.seed, state.limits.deadline
-    while m.replicates < _reachable(state, m, target):
-        grow(m, source, seed, m.replicates + chunk_size(m.n), deadline)
-        if time.perf_counter() > deadline:
-            return False
-    if _reachable(state, m, _MOST) == 1:
-        homogenise(m, seed, _SHIFTS, deadline)
-    return time.perf_counter() <= deadline
-
-
-def _reachable(state: State, m: Measurement, target: int) -> int:
-    held = state.design.source.realisations
-    return target if held is None else min(target, held[m.n])
 
 
 def _is_decided(state: State, outcomes: Sequence[Outcome]) -> bool:

@@ -146,8 +146,10 @@ def rate_probes(claim: RateClaim, dim: int) -> tuple[Integrand, ...]:
     if claim.exponent is sympy.oo:
         raise InputError(f"a measured exponent must be finite: got the claim {claim.text!r}")
     family = claim.decay.family
-    if family in ("worst", "best", "p", "additive"):
-        supports = support_of("axis" if family == "additive" else claim.region, dim)
+    if family == "additive":
+        return _additive_probes(claim, dim)
+    if family in ("worst", "best", "p"):
+        supports = support_of(claim.region, dim)
         return tuple(probe(dim, _degree(claim, len(s)), s) for s in supports)
     if claim.region != "overall" and family != "bernoulli":
         raise InputError(
@@ -156,10 +158,28 @@ def rate_probes(claim: RateClaim, dim: int) -> tuple[Integrand, ...]:
     return (parse_integrand(claim.decay.name, dim),)
 
 
+def _additive_probes(claim: RateClaim, dim: int) -> tuple[Integrand, ...]:
+    """The additive integrand itself, or its part on the one axis that is claimed.
+
+    The class without a degree is that of jumps, k = 1.
+    """
+    degree = int(claim.decay.number or Integer(JUMP))
+    if claim.region in ("overall", "axis", "w=1"):
+        return (parse_integrand(f"additive:k={degree}", dim),)
+    supports = support_of(claim.region, dim)
+    if any(len(s) > 1 for s in supports):
+        raise InputError(
+            "an additive integrand has power on the axes alone, so that a claim on it must be on "
+            f"the region overall, axis or one coordinate: got {claim.text!r}"
+        )
+    parse_integrand(f"additive:k={degree}", dim)  # refuses a degree out of range
+    return tuple(probe(dim, degree, s) for s in supports)
+
+
 def _degree(claim: RateClaim, size: int) -> int:
     """Degree of the Bernoulli polynomial of the claimed class on a support of a size."""
     match claim.decay.family:
-        case "worst" | "additive":
+        case "worst":
             return JUMP
         case "best":
             return SMOOTH

@@ -14,9 +14,12 @@ from ..measuring.moments import Interval, log_error, variance_interval
 from ..measuring.probes import Frequency
 from ..measuring.slopes import RatePoint
 from ..measuring.tails import is_resolved, is_seen
+from ..measuring.white_noise import Scan
 from ..point_sources.child_processes import Limits
 from ..point_sources.fault_kinds import Fault
 from .designs import Design, candidates, rate_probes
+from .fitted_profiles import FittedRegion
+from .structures import disagreements
 from .verdicts import (
     Comparison,
     Outcome,
@@ -68,6 +71,10 @@ class State:
     unanswered : dict, optional
         ``n`` that the sampler was asked for when the budget was spent, None while it was being
         loaded, and for how many ``seconds``.
+    scans : tuple of Scan
+        Of low frequencies in many directions, one for each N, made once at the end.
+    fitted : tuple of FittedRegion
+        Profiles of the first regions, as many as there was time for.
     """
 
     design: Design
@@ -87,6 +94,8 @@ class State:
     judged: set[int] = field(default_factory=set[int])
     ended: str = "decided"
     unanswered: dict[str, Any] | None = None
+    scans: tuple[Scan, ...] = ()
+    fitted: tuple[FittedRegion, ...] = ()
     seconds: float = 0.0
 
 
@@ -124,11 +133,13 @@ def _sampler_judgement(state: State, claim: SamplerClaim) -> Judgement:
         if _is_telling_of_spectra(m) and m.n in state.spectra.get(claim.text, {}):
             spectrum = state.spectra[claim.text][m.n]
             found += comparisons(m, spectrum, state.variances[claim.text][m.n], state.level)
+    for scan in state.scans:
+        found += disagreements(scan, claim.sampler)
     return Judgement(claim, overall_outcome(found), tuple(found))
 
 
 def _is_telling_of_spectra(m: Measurement) -> bool:
-    return m.replicates >= 2 and not m.is_frozen
+    return m.replicates >= 2 and not m.is_frozen and m.dropped is None
 
 
 def _rate_judgement(state: State, claim: RateClaim) -> Judgement:

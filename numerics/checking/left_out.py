@@ -1,32 +1,79 @@
 """What a check leaves out, and why."""
 
 from collections.abc import Iterator, Sequence
+from math import comb
 
 from ...theory.claims import RateClaim
 from ..integrands.protocol import Integrand
 from ..measuring.measurements import Measurement
-from ..measuring.probes import integrand_supports
+from ..measuring.probes import integrand_supports, probed_supports
+from .fitted_profiles import fitted_supports, used_realisations
 from .judgements import Judgement, State
+from .structures import Structures
 
 
-def left_out(state: State, found: Sequence[Judgement]) -> list[dict[str, str]]:
+def left_out(
+    state: State, found: Sequence[Judgement], shown: Structures | None = None
+) -> list[dict[str, str]]:
     """Entries of the document: what, and why."""
     return [
         {"what": what, "why": why}
-        for part in (_spectra(state), _counts(state), _variances(state), _exponents(found))
+        for part in (
+            _fits(state),
+            _spectra(state),
+            _blocks(shown),
+            _counts(state),
+            _variances(state),
+            _exponents(found),
+        )
         for what, why in part
     ]
 
 
+def _fits(state: State) -> Iterator[tuple[str, str]]:
+    """Regions and N without a fitted profile."""
+    supports, dim = fitted_supports(state.design.dim), state.design.dim
+    why = None
+    if state.ended in ("fault", "interrupted"):
+        why = "a fault voids them" if state.ended == "fault" else "the check was interrupted"
+    elif not any(used_realisations(m, dim) > 1 for m in state.measurements):
+        why = "no N has two realisations, with which an expected spectrum can be estimated"
+    elif len(state.fitted) < len(supports):
+        why = "the budget was spent"
+    if why is not None:
+        names = ", ".join(_braced(s) for s in supports[len(state.fitted) :])
+        yield f"fitted profiles of {names}", why
+        return
+    for m in state.measurements:
+        if m.replicates > 1 and not m.is_frozen and used_realisations(m, dim) < 2:
+            yield f"fitted profiles at N = {m.n}", "waves at so many points take too long for a fit"
+    if len(supports) < 2**dim - 1:
+        names = ", ".join(_braced(s) for s in supports)
+        yield "fitted profiles on other regions", f"fitted are {names}"
+
+
+def _blocks(shown: Structures | None) -> Iterator[tuple[str, str]]:
+    if shown is None:
+        yield "blocks", "no N has two different realisations without a fault"
+    elif shown.blocks is None:
+        yield "blocks", shown.why
+
+
 def _spectra(state: State) -> Iterator[tuple[str, str]]:
     d = state.design.dim
-    yield "fitted profile", "degree and effective count per region are not yet fitted to the data"
     if state.design.claims and not state.design.claimed_samplers:
         yield "spectrum and catalogue matches", "only exponents are claimed"
-    elif d > 3:
-        yield "supports of 3 coordinates and more", "axes, pairs and the full support are probed"
+        return
+    probed = probed_supports(d)
+    if len(probed) < 2**d - 1:
+        triples = sum(len(s) == 3 for s in probed)
+        which = "triples" if triples == comb(d, 3) else "triples of neighbours"
+        pairs = sum(len(s) == 2 for s in probed)
+        which = f"{'pairs' if pairs == comb(d, 2) else 'pairs of neighbours'}, {which}"
+        yield "spectra on other supports", f"axes, {which} and the full support are probed"
+    if d > 3:
         kept = ", ".join(_braced(s) for s in integrand_supports(d))
-        yield "variances on other supports", f"integrands probe {kept}; spectra probe the rest"
+        yield "variances on other supports", f"integrands probe {kept}; spectra probe more"
 
 
 def _braced(support: tuple[int, ...]) -> str:
@@ -36,6 +83,9 @@ def _braced(support: tuple[int, ...]) -> str:
 
 
 def _counts(state: State) -> Iterator[tuple[str, str]]:
+    for m in state.measurements:
+        if m.dropped is not None:
+            yield f"N = {m.n}", m.dropped
     measured = {m.n for m in state.measurements}
     for n in state.asked:
         if n not in measured:

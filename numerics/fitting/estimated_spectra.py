@@ -15,9 +15,6 @@ import numpy as np
 from ...theory.errors import InputError
 from ..integrands.protocol import Floats, Ints
 
-FLOOR = 1e-20
-"""N|F|² below this is a rounding error of zero."""
-
 CONE = 4.0
 """Largest ratio of two nonzero coordinates in the cone."""
 
@@ -26,6 +23,7 @@ _FEWEST = 3  # frequencies in the cone; with fewer all are taken
 _MOST = 400  # frequencies per N
 _SHELLS = 40  # in which a longer list of frequencies is thinned out evenly
 _UNIT = 0.7  # of log |m_i|: half the width of the cone
+_TAILS = 5.0  # times the excess of the dispersion
 _SUPPORTS = 12  # more of them share their amplitudes
 
 
@@ -45,7 +43,7 @@ class EstimatedSpectrum:
         Mean of N|F_N(m)|² over the realisations.
     dispersion : array (k,), optional
         Variance of |F_N(m)|² between realisations over the square of its mean: 1 by the gamma law,
-        more where few points decide (heavy tails), and then R counts for less.
+        more where few points decide (heavy tails), and then R counts for less. NaN where unknown.
     """
 
     n: int
@@ -66,7 +64,7 @@ class EstimatedSpectrum:
                 f"got {m.dtype} {m.shape} and {power.shape}"
             )
         d = self.dispersion
-        if d is not None and not (d.shape == power.shape and (d >= 0).all()):
+        if d is not None and (d.shape != power.shape or ((d < 0) | np.isinf(d)).any()):
             raise InputError("dispersions must satisfy 0 <= dispersion (k,): got some that do not")
         wrong = power[~((power >= 0) & (power <= _LARGEST))]
         if wrong.size:
@@ -151,6 +149,15 @@ def cone(sample: Sample) -> Sample:
     return sample.taken(rows) if rows.size >= _FEWEST else sample
 
 
+def rounding(sample: Sample) -> Floats:
+    """N|F_N(m)|² that may be a rounding error of zero: N (ε (1 + 2π|m|))².
+
+    Points are rounded to ε, phases thus to 2π|m|ε, and the errors of N waves may add up.
+    """
+    phases = 2 * np.pi * np.exp(sample.log_radius)
+    return np.exp(sample.log_n) * (np.finfo(float).eps * (1 + phases)) ** 2
+
+
 def excess(sample: Sample) -> Floats:
     """Logarithm of the ratio of the largest to the smallest coordinate, beyond that of the cone."""
     size = np.abs(sample.frequencies).astype(float)
@@ -159,10 +166,10 @@ def excess(sample: Sample) -> Floats:
 
 
 def _degrees(spectrum: EstimatedSpectrum) -> Floats:
-    """R/(1 + 2 (D − 1)^+), D the dispersion averaged over neighbours in |m|.
+    """R/(1 + 5 (D − 1)^+), D the dispersion averaged over neighbours in |m|.
 
-    The excess of heavy tails is doubled, because samples understate it; a value's own dispersion
-    alone would give high values less weight than low ones.
+    Five times, because samples of few realisations understate the excess of heavy tails; a value's
+    own dispersion alone would give high values less weight than low ones.
     """
     r = float(spectrum.realisations)
     if spectrum.dispersion is None:
@@ -171,7 +178,7 @@ def _degrees(spectrum: EstimatedSpectrum) -> Floats:
     padded = np.pad(spectrum.dispersion[order], 1, mode="edge")
     mean = np.empty(len(order))
     mean[order] = (padded[:-2] + 2 * padded[1:-1] + padded[2:]) / 4
-    return r / (1 + 2 * np.maximum(np.nan_to_num(mean, nan=1.0) - 1, 0.0))
+    return r / (1 + _TAILS * np.maximum(np.nan_to_num(mean, nan=1.0) - 1, 0.0))
 
 
 def _halved(m: Ints) -> Ints:

@@ -89,7 +89,7 @@ class Optimum:
         return np.asarray(np.linalg.inv(self.information), dtype=np.float64)
 
 
-def averages(power: Floats, shape: Floats, floor: float) -> Averages:
+def averages(power: Floats, shape: Floats, floor: Floats | float) -> Averages:
     """Averages whose values below the floor are raised to it."""
     raised = np.maximum(power, floor)
     return Averages(raised, shape, np.log(raised))
@@ -97,7 +97,7 @@ def averages(power: Floats, shape: Floats, floor: float) -> Averages:
 
 def deviance(data: Averages, log_mean: Floats) -> Floats:
     """2R(r − 1 − log r) of each value."""
-    gap = np.clip(data.log_power - log_mean, -_RATIO, _RATIO)
+    gap = _gap(data, log_mean)
     return 2 * data.shape * (np.expm1(gap) - gap)
 
 
@@ -117,36 +117,44 @@ def fit(
     limits : pair of arrays (p,)
         Smallest and largest values; a step beyond them ends on them.
     tolerance : float
-        The search ends when a step lowers the cost by less.
+        The search ends when a step promises, to first order, to lower the cost by less than twice
+        this.
 
     Returns
     -------
     Optimum
         A local one: the start decides which.
     """
-    free = np.setdiff1d(np.arange(start.size), fixed)
+    free = np.ones(start.size, dtype=np.bool_)
+    free[list(fixed)] = False
     at, damping = start.copy(), _DAMPING
     curve, cost = _cost(model, data, at)
     information = _information(curve, data)
     for _ in range(rounds):
-        gradient = _gradient(curve, data)[free]
-        square = information[np.ix_(free, free)]
-        scale = np.diag(np.diag(square) + 1e-6)
+        gradient, square = _gradient(curve, data)[free], information[free][:, free]
+        scale, jacobian = np.diag(np.diag(square) + 1e-6), curve.jacobian[:, free]
         for _ in range(_TRIALS):
             trial = at.copy()
-            trial[free] += _step(curve.jacobian[:, free], square + damping * scale, gradient)
-            trial = np.clip(trial, *limits)
+            trial[free] += _step(jacobian, square + damping * scale, gradient)
+            trial = np.minimum(np.maximum(trial, limits[0]), limits[1])
+            if gradient @ (trial - at)[free] < tolerance:
+                return Optimum(at, cost, information)
             curve_there, cost_there = _cost(model, data, trial)
             if cost_there <= cost:
                 break
             damping = max(8 * damping, 1e-5)
         else:
             break
-        fall, at, curve, cost = cost - cost_there, trial, curve_there, cost_there
+        at, curve, cost = trial, curve_there, cost_there
         information, damping = _information(curve, data), damping / 6
-        if fall < tolerance:
-            break
     return Optimum(at, cost, information)
+
+
+def promised(model: Model, data: Averages, at: Floats) -> float:
+    """To first order, by how much the least cost is below that at some parameters (score test)."""
+    curve = model(at)
+    gradient = _gradient(curve, data)
+    return float(gradient @ np.linalg.solve(_information(curve, data), gradient))
 
 
 def _step(jacobian: Floats, square: Floats, gradient: Floats) -> Floats:
@@ -162,8 +170,11 @@ def _cost(model: Model, data: Averages, at: Floats) -> tuple[Curve, float]:
 
 def _gradient(curve: Curve, data: Averages) -> Floats:
     """Minus half the gradient of the cost."""
-    gap = np.clip(data.log_power - curve.log_mean, -_RATIO, _RATIO)
-    return curve.jacobian.T @ (data.shape * np.expm1(gap)) + curve.pull
+    return curve.jacobian.T @ (data.shape * np.expm1(_gap(data, curve.log_mean))) + curve.pull
+
+
+def _gap(data: Averages, log_mean: Floats) -> Floats:
+    return np.minimum(np.maximum(data.log_power - log_mean, -_RATIO), _RATIO)
 
 
 def _information(curve: Curve, data: Averages) -> Floats:

@@ -2,7 +2,8 @@
 
 With λ = log ρ − e (log N − mean log N) − s, t = e^λ, and D = N^{−1/w} on w nonzero coordinates,
 
-    log μ = log γ + g D + log(1 − e^{−A}) + Σ_k c_k φ_k(t),   log A = κ + b λ + a D + Σ_j β_j h_j,
+    log μ = log γ + g D + g' D² + log(1 − e^{−A}) + Σ_k c_k φ_k(t),
+    log A = κ + b λ + a D + Σ_j β_j h_j,
 
 so that μ ~ γ A ~ ρ^b N^{−be} as t → 0 and μ → γ as t → ∞. The *gauge* s puts t = 1 at the
 crossover; it is chosen once and held, for then log μ is all but linear in what is to be known.
@@ -13,13 +14,14 @@ there are. The φ_k stand for them, each with a normal prior of its coefficient:
   occur: a perturbed lattice of stable exponent 3/2 has μ ~ x^{3/2} (1 + c x^{1/2} + ...);
 - the shape of the crossover: bumps of width 0.35 in λ at t = 0.5 ... 12: 0.3, falling as t^{−3/2};
 - next orders that depend on direction, t h_j and t² h_j, and the amplitude's h_j: 1/2;
-- corrections to scaling in N: a and those with D t, D t², D²: 1; g: 1/2.
+- corrections to scaling in N: a, g' and those with D t, D t², D² at low t: 1; g: 1/2.
 
-Weak priors hold what no data may show: log γ ± 3/2, the crossover α within e^{±2} of 0.4 N^e,
-b = 2 ± 4, e = 3/4 ± 2, and e within 1/(2d) ... 3/2 give or take 1/4, on d coordinates.
+Weak priors hold what no data may show: log γ = 0 ± 3/2, log α = log 0.4 ± 3/2,
+b = 2 ± 4, e = 3/4 ± 2, and e within 3/(4d) ... 3/2 give or take 1/5, on d coordinates.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import log
 
 import numpy as np
@@ -28,19 +30,25 @@ from ..integrands.protocol import Floats
 from .estimated_spectra import Sample
 from .gamma_likelihood import Averages, Curve, Model
 
-KAPPA, EFFECTIVE, DEGREE, GAMMA = 0, 1, 2, 3
-"""Places of κ, e, b and log γ among the parameters."""
+KAPPA, EFFECTIVE, DEGREE, GAMMA, FEATURES = range(5)
+"""Places of κ, e, b and log γ among the parameters, and of the first that departs from them."""
+
+USUAL_LOG_ALPHA = log(0.4)
+"""Centre of the prior of log α."""
 
 LOWEST_DEGREE, HIGHEST_DEGREE = -1.0, 14.0
 LOWEST_EFFECTIVE, HIGHEST_EFFECTIVE = -0.5, 3.0
 
 _ORDERS = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.0])
+_FIRST = 1  # place of the order 1
 _CENTRES = np.array([0.5, 0.75, 1.1, 1.6, 2.4, 3.6, 5.4, 8.0, 12.0])
+_LOG_CENTRES = np.log(_CENTRES)
 _WIDTH = 0.35
 _BUMP, _BUMPS_FALL_FROM = 0.3, 1.6
-_DIRECTION, _DRIFT, _PLATEAU_DRIFT, _LEVEL = 0.5, 1.0, 0.5, 1.5
-_ALPHA = (log(0.4), 1.5)
-_DEGREES, _EFFECTIVES, _EDGE, _LEAST = (2.0, 4.0), (0.75, 2.0), 0.2, 0.75
+_DIRECTION, _EXTRA, _DRIFT, _PLATEAU_DRIFT = 0.5, 2.0, 1.0, 0.5
+_WEAK = {GAMMA: (0.0, 1.5), DEGREE: (2.0, 4.0), EFFECTIVE: (0.75, 2.0)}  # means and deviations
+_ALPHA = (USUAL_LOG_ALPHA, 1.5)  # of log α
+_LEAST, _MOST, _EDGE = 0.75, 1.5, 0.2  # of e: 3/(4d) to 3/2
 _MISFIT, _LEAST_MISFIT, _MISFIT_OF_DIRECTIONS = 0.07, 0.003, 0.015
 
 
@@ -71,18 +79,14 @@ class Frame:
     dim: int
     gauge: float = 0.0
 
-    @property
-    def features(self) -> int:
-        """Place of the first parameter that departs from the plain saturating power."""
-        return GAMMA + 1
-
-    @property
+    @cached_property
     def size(self) -> int:
         """Number of parameters."""
-        return self.features + self.deviations().size
+        return FEATURES + self.deviations.size
 
+    @cached_property
     def deviations(self) -> Floats:
-        """Standard deviations of the priors of all parameters from ``features`` on."""
+        """Standard deviations of the priors of all parameters from ``FEATURES`` on."""
         q = self.directions.shape[1]
         bumps = _BUMP * np.minimum(1, (_BUMPS_FALL_FROM / _CENTRES) ** 1.5)
         extra = self.inner.shape[1] - 1 - q
@@ -90,8 +94,8 @@ class Frame:
             [
                 [_DRIFT],
                 np.full(q, _DIRECTION),
-                np.full(extra, 2.0),
-                [_PLATEAU_DRIFT],
+                np.full(extra, _EXTRA),
+                [_PLATEAU_DRIFT, _DRIFT],
                 np.ones(_ORDERS.size),
                 bumps,
                 np.full(2 * q, _DIRECTION),
@@ -130,35 +134,34 @@ def curve_model(frame: Frame, power: bool = True) -> Model:
     power : bool
         Whether there is a power at all; without, b = 0 and μ is γ but for the corrections.
     """
-    precision = frame.deviations() ** -2.0
+    centre, precision = np.zeros(frame.size), np.zeros(frame.size)
+    precision[FEATURES:] = frame.deviations**-2.0
+    for place, (mean, deviation) in _WEAK.items():
+        centre[place], precision[place] = mean, deviation**-2.0
+    diagonal = np.diag(precision)
 
     def model(at: Floats) -> Curve:
         log_mean, jacobian = _log_mean(frame, at)
-        pull, stiffness = np.zeros(at.size), np.zeros((at.size, at.size))
-        rest = at[frame.features :]
-        pull[frame.features :] = -precision * rest
-        stiffness[np.diag_indices(at.size)] = np.concatenate([np.zeros(frame.features), precision])
-        penalty = float(precision @ rest**2)
-        for row, miss in _weak_priors(frame, at, power):
+        pull = precision * (centre - at)
+        penalty = float(pull @ (centre - at))
+        stiffness = diagonal
+        for row, miss in _bent_priors(frame, at, power):
             penalty += miss**2
-            pull[: frame.features] -= miss * row
-            stiffness[: frame.features, : frame.features] += np.outer(row, row)
+            pull[:FEATURES] -= miss * row
+            stiffness = stiffness.copy()
+            stiffness[:FEATURES, :FEATURES] += np.outer(row, row)
         return Curve(log_mean, jacobian, penalty, pull, stiffness)
 
     return model
 
 
-def _weak_priors(frame: Frame, at: Floats, power: bool) -> list[tuple[Floats, float]]:
-    """Rows of derivatives and misses, in standard deviations, of the weak priors."""
-    kappa, e, b, level = at[: frame.features].tolist()
-    found = [
-        (_row(GAMMA, 1 / _LEVEL), level / _LEVEL),
-        (_row(DEGREE, 1 / _DEGREES[1]), (b - _DEGREES[0]) / _DEGREES[1]),
-        (_row(EFFECTIVE, 1 / _EFFECTIVES[1]), (e - _EFFECTIVES[0]) / _EFFECTIVES[1]),
-    ]
-    beyond = min(e - _LEAST / frame.dim, 0.0) + max(e - 1.5, 0.0)
+def _bent_priors(frame: Frame, at: Floats, power: bool) -> list[tuple[Floats, float]]:
+    """Derivatives and misses, in standard deviations, of the priors of e's range and of α."""
+    kappa, e, b = at[:GAMMA].tolist()
+    found = list[tuple[Floats, float]]()
+    beyond = min(e - _LEAST / frame.dim, 0.0) + max(e - _MOST, 0.0)
     if beyond:
-        found.append((_row(EFFECTIVE, 1 / _EDGE), beyond / _EDGE))
+        found.append((np.array([0.0, 1 / _EDGE, 0.0, 0.0]), beyond / _EDGE))
     if power:
         steep = max(b, 0.1)  # α = exp(s − κ/b) is lost as b → 0
         miss = frame.gauge - kappa / steep - e * frame.mean_log_n - _ALPHA[0]
@@ -168,26 +171,32 @@ def _weak_priors(frame: Frame, at: Floats, power: bool) -> list[tuple[Floats, fl
     return found
 
 
-def _row(place: int, value: float) -> Floats:
-    row = np.zeros(GAMMA + 1)
-    row[place] = value
-    return row
-
-
 def _log_mean(frame: Frame, at: Floats) -> tuple[Floats, Floats]:
-    kappa, _, b, level = at[: frame.features].tolist()
+    """log μ and its Jacobian.
+
+    The slopes in λ, and so in e, of the columns with directions and with D are left out: they are
+    small, and scoring converges without them.
+    """
+    kappa, _, b, level = at[:FEATURES].tolist()
     inner = frame.inner.shape[1]
     lam = position(frame, at)
-    beta, rest = at[frame.features : frame.features + inner], at[frame.features + inner :]
-    log_a: Floats = np.clip(kappa + b * lam + frame.inner @ beta, -200.0, 5.0)
-    a = np.exp(log_a)
-    saturation: Floats = np.where(a < 1e-8, log_a, np.log(-np.expm1(-a)))
-    steepness: Floats = np.where(a < 1e-8, 1.0, a / np.expm1(a))
-    columns, slopes = _features(frame, lam)
-    slope = steepness * b + slopes @ rest[1 : 1 + slopes.shape[1]]
-    head = np.stack([steepness, -slope * frame.shift, steepness * lam, np.ones(lam.size)], axis=1)
-    jacobian = np.concatenate([head, steepness[:, None] * frame.inner, columns], axis=1)
-    return level + saturation + columns @ rest, jacobian
+    rest = at[FEATURES + inner :]
+    a = np.exp(
+        np.minimum(np.maximum(kappa + b * lam + frame.inner @ at[FEATURES:][:inner], -200.0), 5.0)
+    )
+    reached = -np.expm1(-a)
+    steepness = a * (1 - reached) / reached
+    jacobian = np.empty((at.size, lam.size))
+    columns = jacobian[FEATURES + inner :]
+    slope = steepness * b + _features(frame, lam, rest, columns)
+    jacobian[KAPPA], jacobian[EFFECTIVE], jacobian[DEGREE] = (
+        steepness,
+        -slope * frame.shift,
+        steepness * lam,
+    )
+    jacobian[GAMMA] = 1.0
+    np.multiply(frame.inner.T, steepness, out=jacobian[FEATURES : FEATURES + inner])
+    return level + np.log(reached) + rest @ columns, jacobian.T
 
 
 def position(frame: Frame, at: Floats) -> Floats:
@@ -195,22 +204,28 @@ def position(frame: Frame, at: Floats) -> Floats:
     return frame.log_radius - at[EFFECTIVE] * frame.shift - frame.gauge
 
 
-def _features(frame: Frame, lam: Floats) -> tuple[Floats, Floats]:
-    """Columns D and φ_k, and the slopes in λ of those from the second on that matter to e.
-
-    The slopes of the columns with directions and with D are left out of the Jacobian: they are
-    small, and scoring converges without them.
-    """
-    t = np.exp(np.clip(lam, -60.0, 4.0))[:, None]
-    taper = np.exp(-t * t / 2)
-    orders = t**_ORDERS * taper
-    off = (lam[:, None] - np.log(_CENTRES)) / _WIDTH
-    bumps = np.exp(-off * off / 2)
-    low, drift = t * taper, frame.drift[:, None]
-    columns = [drift, orders, bumps, low * frame.directions, t * low * frame.directions]
-    columns += [drift * drift * taper, drift * low, drift * t * low]
-    slopes = [orders * (_ORDERS - t * t), -bumps * off / _WIDTH]
-    return np.concatenate(columns, axis=1), np.concatenate(slopes, axis=1)
+def _features(frame: Frame, lam: Floats, rest: Floats, columns: Floats) -> Floats:
+    """Fill in the columns D, D² and φ_k; the slope in λ of the orders and bumps at coefficients."""
+    lam = np.minimum(np.maximum(lam, -60.0), 4.0)
+    t = np.exp(lam)
+    fall = t * t / 2
+    drift, n, q = frame.drift, 2 + _ORDERS.size, frame.directions.shape[1]
+    columns[0], columns[1] = drift, drift * drift
+    orders, bumps = columns[2:n], columns[n : n + _CENTRES.size]
+    np.exp(_ORDERS[:, None] * lam - fall, out=orders)
+    off = (lam - _LOG_CENTRES[:, None]) / _WIDTH
+    np.exp(-off * off / 2, out=bumps)
+    low, place = orders[_FIRST], n + _CENTRES.size
+    if q:
+        np.multiply(frame.directions.T, low, out=columns[place : place + q])
+        np.multiply(frame.directions.T, t * low, out=columns[place + q : place + 2 * q])
+    columns[-3], columns[-2], columns[-1] = (
+        drift * drift * np.exp(-fall),
+        drift * low,
+        drift * t * low,
+    )
+    c, s = rest[2:n], rest[n:place]
+    return (c * _ORDERS) @ orders - 2 * fall * (c @ orders) - (s / _WIDTH) @ (bumps * off)
 
 
 def misfit_allowed(frame: Frame, at: Floats) -> Floats:

@@ -9,9 +9,10 @@ A frozen point set, of which there is one realisation, is homogenised by many ra
 tell the variance of its shifted estimator, Σ |F_S(m)|² |f^(m)|², and nothing on other realisations.
 """
 
-import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import inf
+from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,13 @@ class Measurement:
         Random shifts that variances are taken over; more than realisations only of a frozen set.
     distinct : int
         Different realisations among those that are kept; 0 until they have been compared.
+    chunks : list of int
+        Realisations that were drawn and measured together, chunk by chunk. On them depend the
+        random numbers of catalogue samplers and of the shifts.
+    cost : float, optional
+        Seconds per realisation of the last chunk.
+    dropped : str, optional
+        Why no more is measured at this N.
     """
 
     n: int
@@ -55,6 +63,9 @@ class Measurement:
     shifts: int = 0
     distinct: int = 0
     seconds: float = 0.0
+    cost: float | None = None
+    dropped: str | None = None
+    chunks: list[int] = field(default_factory=list[int])
     power: dict[Frequency, Moments] = field(default_factory=dict[Frequency, Moments])
     shifted: dict[str, Moments] = field(default_factory=dict[str, Moments])
     raw: dict[str, Moments] = field(default_factory=dict[str, Moments])
@@ -74,16 +85,27 @@ class Measurement:
         return self.distinct == 1 and self.shifts > 1
 
 
+def whole_chunks(measurement: Measurement) -> int:
+    """The length of chunks for which there is time."""
+    return chunk_size(measurement.n)
+
+
 def grow(
     measurement: Measurement,
     source: Source | CatalogueSource,
     seed: int,
     replicates: int,
     deadline: float = inf,
+    length: Callable[[Measurement], int] = whole_chunks,
 ) -> None:
     """Measure until there are ``replicates`` realisations, the source has no more, or it is late.
 
     After the deadline, a time of `time.perf_counter`, no further chunk is begun.
+
+    Parameters
+    ----------
+    length : callable
+        Realisations of the next chunk; 0 if none is to be begun.
 
     Raises
     ------
@@ -95,26 +117,40 @@ def grow(
     if source.realisations is not None:
         replicates = min(replicates, source.realisations[measurement.n])
     while measurement.replicates < replicates:
-        start = measurement.replicates
-        chunk = range(start, min(start + chunk_size(measurement.n), replicates))
-        began = time.perf_counter()
-        measurement.attempted = chunk.stop
-        points = source.realise(measurement.n, seed, chunk)
-        _absorb(measurement, points, seed)
-        measurement.replicates = measurement.attempted = start + len(points)
-        measurement.seconds += time.perf_counter() - began
-        if time.perf_counter() > deadline:
+        count = min(length(measurement), replicates - measurement.replicates)
+        if count < 1:
             return
+        began = perf_counter()
+        measurement.attempted = measurement.replicates + count
+        labels = _labels(measurement, source, count)
+        points = source.realise(measurement.n, seed, labels)
+        _absorb(measurement, points, seed)
+        measurement.replicates += len(points)
+        measurement.attempted = measurement.replicates
+        measurement.chunks.append(len(points))
+        now = perf_counter()
+        measurement.seconds += now - began
+        measurement.cost = (now - began) / max(len(points), 1)
+        if now > deadline:
+            return
+
+
+def _labels(measurement: Measurement, source: Source | CatalogueSource, count: int) -> range:
+    """What the next chunk is called; that of a catalogue sampler has a stream of its own."""
+    start = measurement.replicates
+    if isinstance(source, CatalogueSource):
+        start = len(measurement.chunks) * chunk_size(measurement.n)
+    return range(start, start + count)
 
 
 def homogenise(measurement: Measurement, seed: int, shifts: int, deadline: float = inf) -> None:
     """Shift the one realisation that there is until there are so many shifts, or it is late."""
     while measurement.shifts < shifts:
-        began, points = time.perf_counter(), measurement.kept[0][:1]
+        began, points = perf_counter(), measurement.kept[0][:1]
         count = min(chunk_size(measurement.n), shifts - measurement.shifts)
         _shift(measurement, np.repeat(points, count, axis=0), seed)
-        measurement.seconds += time.perf_counter() - began
-        if time.perf_counter() > deadline:
+        measurement.seconds += perf_counter() - began
+        if perf_counter() > deadline:
             return
 
 
