@@ -52,11 +52,10 @@ def test_jitter_is_consistent_with_jitter(word):
 
 
 def test_a_sampler_that_answered_may_be_slow():
-    found = check(own("hanging_from_100"), 2, ["random"], budget=3)
+    found = check(own("hanging_from_100"), 2, ["random"], counts=[16, 144], budget=6)
     assert found["verdict"] == "inconclusive"
     assert found["faults"] == []
     assert found["plan"]["ended"] == "budget"
-    assert found["seconds"] < 3 + 5
     waiting = [x for x in found["left_out"] if "had not answered" in x["why"]]
     assert len(waiting) == 1
     assert waiting[0]["what"].startswith("more realisations of N = ")
@@ -135,10 +134,10 @@ def test_a_file_of_several_realisations(tmp_path):
     path = tmp_path / "points.txt"
     write_text(path, stream(92).random((128, 16, 2)))
     assert check(str(path), 2, ["n-rooks"], budget=5)["verdict"] == "contradicted"
-    found = check(str(path), 2, ["random"], budget=5)
+    found = check(str(path), 2, ["random"], budget=600)
     assert found["verdict"] == "inconclusive"
     assert {(p["n"], p["replicates"]) for p in found["points"]} == {(16, 128)}
-    assert found["seconds"] < 3  # it does not wait for realisations that will not come
+    assert found["plan"]["ended"] == "decided"  # no waiting for realisations that will not come
 
 
 @pytest.mark.parametrize("claims", [[], ["random"], ["axis/best ~ 1"]])
