@@ -7,12 +7,9 @@ process, as many realisations as half of the budget allows, and checked like poi
 then guards against a call that never returns.
 """
 
-import inspect
-import sys
 import tempfile
 import time
 from collections.abc import Sequence
-from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +18,11 @@ import numpy as np
 from ..theory.claims import RateClaim, SamplerClaim, parse_claim
 from ..theory.errors import InputError
 from .checking.check_documents import Document, check
+from .checking.designs import checked_claims, whole_dim
 from .falsification.design_strategies import NamedSampler, counts, integrands, layouts
 from .falsification.falsifiers import SamplerFunction
 from .point_sources.catalogue_source import counts_of
+from .point_sources.imports import refuse_unless_source, word_of
 from .point_sources.realisations import SamplerFault
 from .point_sources.sources import CallableSource
 
@@ -53,7 +52,8 @@ def assert_design(
     claims : sequence of str
         Catalogue samplers, or ``REGION/CLASS ~ EXPONENT [log Q]``; without any, only faults fail.
     budget : float
-        Seconds, a cap. Whatever has not been decided then does not fail.
+        Seconds, a cap. Whatever has not been decided then does not fail, unless nothing at all
+        was measured.
     seed : int
         Of all random numbers.
     strict : bool
@@ -69,58 +69,36 @@ def assert_design(
     AssertionError
         If the verdict is invalid or contradicted, or with strict not consistent. Its lines are the
         verdict, the faults, and each claim with its witness. A correct sampler that has no fault
-        fails with a probability of at most 1e-5, unless strict.
+        fails with a probability of at most 1e-5, unless strict. In one line, with the reason and
+        the budget, if nothing was measured.
     InputError
         If anything asked for is unusable.
     """
+    refuse_unless_source(sampler)
+    dim, claims = whole_dim(dim), checked_claims(claims)
     words = word_of(sampler) if callable(sampler) else sampler
     if callable(sampler) and words is None:
         found = _checked_here(sampler, dim, claims, budget, seed)
     else:
         assert words is not None
         found = check(words, dim, claims, budget=budget, seed=seed)
-    verdict = found["verdict"]
+    verdict, name = found["verdict"], getattr(sampler, "__qualname__", None)
+    name = name or " ".join(found["plan"]["sources"])
+    if found["n_range"] is None and not found["faults"]:
+        raise AssertionError(_nothing_measured(found, name, budget))
     if verdict in ("invalid", "contradicted") or (strict and verdict != "consistent"):
-        name = getattr(sampler, "__qualname__", None) or " ".join(found["plan"]["sources"])
         raise AssertionError("\n".join(verdict_lines(found, name)))
     return found
 
 
-def word_of(sampler: SamplerFunction) -> str | None:
-    """``module:name`` or ``path.py:name`` by which another interpreter finds a function.
-
-    Returns
-    -------
-    str or None
-        None for a lambda, a local function, a bound method, or what its module does not hold
-        under its own name.
-    """
-    name, module = getattr(sampler, "__qualname__", None), getattr(sampler, "__module__", None)
-    if not (
-        inspect.isfunction(sampler) and name and all(p.isidentifier() for p in name.split("."))
-    ):
-        return None
-    holder: Any = sys.modules.get(module or "")
-    for part in name.split("."):
-        holder = getattr(holder, part, None)
-    if holder is not sampler or module is None:
-        return None
-    file = Path(inspect.getfile(sampler)).resolve()
-    if module != "__main__" and _is_found(module, file):
-        return f"py:{module}:{name}"
-    return f"py:{file}:{name}" if file.suffix == ".py" and file.is_file() else None
-
-
-def _is_found(module: str, file: Path) -> bool:
-    """Whether a fresh import of the module leads to the file."""
-    search, origin = None, None
-    parts = module.split(".")
-    for i in range(len(parts)):
-        spec = PathFinder.find_spec(".".join(parts[: i + 1]), search)
-        if spec is None:
-            return False
-        search, origin = spec.submodule_search_locations, spec.origin
-    return origin is not None and Path(origin).resolve() == file
+def _nothing_measured(found: Document, name: str, budget: float) -> str:
+    """Why a check says nothing, in one line."""
+    late = found["plan"]["unanswered"] is not None
+    why = next((x["why"] for x in found["left_out"] if x["what"].startswith("all ")), None)
+    reasons = "; ".join(f"{x['what']}: {x['why']}" for x in found["left_out"])
+    told = why if late and why is not None else reasons
+    rule = f"{name} in {found['plan']['dim']}D must be measured within a budget of {budget:g} s"
+    return f"{rule}: got nothing, {told or 'without a reason'}"
 
 
 def _checked_here(
@@ -178,8 +156,8 @@ def verdict_lines(found: Document, name: str) -> list[str]:
     for c in found["claims"]:
         word = {True: "holds", False: "FAILS", None: "is undecided"}[c["holds"]]
         lines.append(f"claim {c['claim']} {word}{_witness_text(c['witness'])}")
-    if found["budget_needed_seconds"] is not None:
-        lines.append(f"a budget of about {found['budget_needed_seconds']:.0f} s would decide")
+    if found["budget_needed"] is not None:
+        lines.append(f"a budget of about {found['budget_needed']['seconds']:.0f} s would decide")
     return lines
 
 

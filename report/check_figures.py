@@ -10,7 +10,7 @@ import numpy as np
 from ..numerics.measuring.spectrum_pictures import RegionProfile, SpectrumPictures
 from .check_convergence import convergence_panels, time_panels
 from .check_profiles import FLOOR, MOST_PANELS, chosen, is_drawn, profile_panel, profiles_of
-from .check_spectra import LEAST, plane_panels
+from .check_spectra import colours_told, plane_panels
 from .figure_panels import Panel
 from .variance_curves import ROUNDING, curves_of
 
@@ -72,7 +72,8 @@ def _spectrum(document: Document, pictures: SpectrumPictures) -> CheckFigure:
     caption = (
         "N·P_S at the frequencies m, on logarithmic colours: the mean of N|F|² over realisations "
         f"of the raw points{beside}. Independent points "
-        f"have N·P_S = 1 everywhere; m = 0 is left blank; colours end at 10^{log10(LEAST):.0f}."
+        f"have N·P_S = 1 everywhere; m = 0 is left blank"
+        f"{'; ' + colours_told(pictures.planes) if pictures.planes else ''}."
     )
     return CheckFigure("spectrum", "Power spectrum", caption, panels, missing, paired)
 
@@ -122,11 +123,12 @@ def _profile_caption(shown: Sequence[RegionProfile]) -> str:
         f"the region: measured on raw points, with intervals of {bars or '95 %'}"
     )
     if any(s.exact is not None for s in spectra):
-        text += "; dashes: exact, of the claimed sampler"
-    text += "; dotted: independent points."
+        text += "; short strokes: exact, of the claimed sampler"
+    text += "; dotted line: independent points."
     if any(is_drawn(p) for p in shown):
         text += (
-            " Curves: the fitted profile, the largest of its monomials γ min(1, (|m|/(α N^e))^b); "
+            " Solid curves, in the colour of their N: the fitted profile, the largest of its "
+            "monomials γ min(1, (|m|/(α N^e))^b); "
             "shaded: b, about the middle of the rise, and the plateau γ within their intervals."
         )
     if any(np.isinf(s.high).any() for s in spectra):
@@ -171,7 +173,8 @@ def _error_time(document: Document) -> CheckFigure:
     caption = (
         "Error, the root of the variance on randomly shifted points, against the time of one "
         "estimate: what was spent at an N, on points, integrands and frequencies together, over "
-        "the number of randomly shifted point sets. Intervals of 95 %."
+        "the number of randomly shifted point sets. Intervals of 95 % are drawn; where none is "
+        "seen it is smaller than the mark."
     )
     missing = () if panels else ("No variance and no time were measured.",)
     return CheckFigure("error_time", "Error against run time", caption, panels, missing)

@@ -370,14 +370,14 @@ def _asymptote(rate: Document, latex: bool) -> str:
 
 
 def _ends(document: Document) -> Iterator[str]:
-    budget = document["budget_needed_seconds"]
-    if budget is not None:
-        yield f"Undecided claims need a budget of about {budget:.0f} s."
+    needed = document["budget_needed"]
+    if needed is not None:
+        yield f"Undecided claims need a budget of about {needed['seconds']:.0f} s."
     yield from map(short, fit_remarks(document))
     for x in document["left_out"]:
         yield f"Left out, {x['what']}: {x['why']}"
     yield (
-        f"A correct claim is contradicted with probability at most {document['false_alarm']:.0e} "
+        f"A correct claim is contradicted with a probability set to {document['false_alarm']:.0e} "
         f"(level {document['level']:.0e} per comparison); it holds where the interval lies "
         f"within {document['margin']:.0%} of the claimed spectrum or variance, or, holding the "
         f"claimed exponent, within {document['exponent_margin']:.2g} of it."

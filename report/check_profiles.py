@@ -17,7 +17,7 @@ from ..numerics.measuring.spectrum_pictures import (
     profile_band,
 )
 from .check_formats import short
-from .figure_panels import COLOURS, DASHES, MARKERS, Panel, log_axis
+from .figure_panels import COLOURS, MARKERS, Panel, log_axis
 from .numerals import interval, number
 from .page_style import LIGHT
 
@@ -32,6 +32,7 @@ MOST_PANELS = 9
 _MOST_POINTS = 40  # of one region and N
 _FAR = 1.0  # widths of an interval
 _REACH = 10.0  # factor by which intervals widen the vertical axis at most
+_DOTTED = (0, (1, 2))  # the line of independent points
 _REPORTED = 0.05  # level of the intervals in the document
 
 
@@ -146,7 +147,7 @@ def _drawing(
             _fitted(ax, profile, spectrum, index)
         log_axis(ax, "x", [r for s in spectra for r in s.radius.tolist()])
         log_axis(ax, "y", _heights(spectra))
-        ax.axhline(1.0, color=LIGHT["data5"], linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
+        ax.axhline(1.0, color=LIGHT["data5"], linewidth=0.6, linestyle=_DOTTED, zorder=0)
         ax.set_xlabel("frequency |m|")
         ax.set_ylabel(r"$N\cdot P_S$", parse_math=True)
         ax.set_title(title)
@@ -196,7 +197,7 @@ def _fitted(ax: Any, profile: RegionProfile, s: RegionSpectrum, index: int) -> N
         return
     least, largest = (np.clip(b, FLOOR, 1e6) for b in band)
     ax.fill_between(radius, least, largest, color=COLOURS[index], alpha=0.18, linewidth=0)
-    ax.plot(radius, np.maximum(curve, FLOOR), color=COLOURS[index], linestyle=DASHES[index])
+    ax.plot(radius, np.maximum(curve, FLOOR), color=COLOURS[index], linestyle="-")
 
 
 def _legend(
@@ -212,6 +213,8 @@ def _legend(
     if is_drawn(profile):
         handles.append(line([], [], color=LIGHT["ink"]))
         labels.append("fitted profile")
+    handles.append(line([], [], color=LIGHT["data5"], linewidth=0.6, linestyle=_DOTTED))
+    labels.append("independent points")
     return handles, labels
 
 

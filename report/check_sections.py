@@ -45,7 +45,7 @@ def verdict(document: Document) -> Html:
     found = element("span", f"{_SIGNS[word]} {word}", class_="word")
     sentence = joined(
         _asked(document), ": ", found, " ", prose(_where(document)), _because(document),
-        f"; {_error(document)} with probability {number(document['false_alarm'], 1)} at most.",
+        f"; {_error(document)} with a probability set to {number(document['false_alarm'], 1)}.",
     )  # fmt: skip
     return element("p", sentence, class_=f"verdict {_TONES[word]}".strip())
 
@@ -95,8 +95,8 @@ def _because(document: Document) -> Html:
                 near = f"the exponent lies within {document['exponent_margin']:.2g} of the claimed"
             return joined(f", since {near}")
         case _:
-            budget = document["budget_needed_seconds"]
-            more = "" if budget is None else f"; a budget of {budget:.0f} s may decide"
+            needed = document["budget_needed"]
+            more = "" if needed is None else f"; a budget of {needed['seconds']:.0f} s may decide"
             return joined(f", since what was measured does not decide{more}")
 
 

@@ -24,14 +24,36 @@ def plane_panels(planes: Sequence[PlaneSpectrum]) -> tuple[Panel, ...]:
     """The measured spectrum of every plane, beside it the claimed one; one scale for both."""
     found: list[Panel] = []
     for plane in planes:
-        n = plane.measured.n
-        scaled = _without_zero(n * plane.measured.mean)
-        exact = None if plane.exact is None else _without_zero(n * plane.exact)
-        scale = _scale([scaled, *([] if exact is None else [exact])])
-        found.append(_panel(plane, scaled, scale, f"measured, N = {n}", True))
-        if exact is not None:
+        n, spectra = plane.measured.n, _scaled(plane)
+        scale = _scale(spectra)
+        found.append(_panel(plane, spectra[0], scale, f"measured, N = {n}", True))
+        for exact in spectra[1:]:
             found.append(_panel(plane, exact, scale, f"claimed, exact, N = {n}", False))
     return tuple(found)
+
+
+def colours_told(planes: Sequence[PlaneSpectrum]) -> str:
+    """Where the colours end, in words; a plane may have ends of its own."""
+    ends = [_ends(plane) for plane in planes]
+    lows, highs = ({number(scale[i]) for scale, _ in ends} for i in (0, 1))
+    if len(lows) == len(highs) == 1:
+        text = f"colours go from {lows.pop()} to {highs.pop()}"
+    else:
+        text = "colours end where the bar beside each picture does"
+    return text + (", smaller values having the first" if any(c for _, c in ends) else "")
+
+
+def _scaled(plane: PlaneSpectrum) -> list[Reals]:
+    """N·P_S as measured, and as claimed if it is, without m = 0."""
+    shown = [plane.measured.mean, *([] if plane.exact is None else [plane.exact])]
+    return [_without_zero(plane.measured.n * s) for s in shown]
+
+
+def _ends(plane: PlaneSpectrum) -> tuple[Scale, bool]:
+    """The ends of the colours, and whether some value is smaller."""
+    spectra = _scaled(plane)
+    scale = _scale(spectra)
+    return scale, any(float(np.nanmin(s)) < scale[0] for s in spectra)
 
 
 def _without_zero(scaled: Reals) -> Reals:

@@ -89,6 +89,7 @@ def _parser() -> _Parser:
     _add_radial(commands)
     _add_recommend(commands)
     _add_stress(commands)
+    _add_prove(commands)
     return parser
 
 
@@ -189,11 +190,25 @@ def _add_stress(commands: Commands) -> None:
     _add_format(p)
 
 
+def _dimension(word: str) -> int:
+    """A dimension as a number; a symbol is none."""
+    if not (word.isascii() and word.isdigit() and int(word) >= 1):
+        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1: got {word}")
+    return int(word)
+
+
 def _add_recommend(commands: Commands) -> None:
     p = _command(commands, "recommend", _recommend, "which layouts reach the rates wanted")
     p.add_argument("wanted", nargs="+", metavar="CLAIM", help='"axis/best ~ 3", repeatable')
-    p.add_argument("--dim", required=True, type=int, metavar="D")
+    p.add_argument("--dim", required=True, type=_dimension, metavar="D")
     _add_format(p)
+
+
+def _add_prove(commands: Commands) -> None:
+    p = _command(commands, "prove", _prove, "re-check the proofs of the paper's equations")
+    p.add_argument("names", nargs="*", metavar="ID", help="ids or equations, such as 25; else all")
+    p.add_argument("--errata", action="store_true", help="only what is refuted or corrected")
+    _add_format(p, ("terminal", "json", "latex", "markdown", "html"))
 
 
 def _table(a: argparse.Namespace) -> tuple[str, int]:
@@ -215,7 +230,10 @@ def _check(a: argparse.Namespace) -> tuple[str, int]:
     from ..theory.errors import InputError
 
     if a.plan is None and (not a.source or a.dim is None):
-        raise InputError("check needs a SOURCE and --dim (or --plan): got neither or one")
+        absent = [w for w, has in (("SOURCE", a.source), ("--dim", a.dim is not None)) if not has]
+        raise InputError(
+            f"check needs a SOURCE and --dim (or --plan): got no {' and no '.join(absent)}"
+        )
     if a.plan is not None and (a.claim or a.integrand or a.n or a.seed is not None):
         raise InputError("--plan brings its own claims, integrands, N and seed: got others as well")
     from ..numerics.checking.check_documents import check, check_with_pictures
@@ -318,6 +336,17 @@ def _diagram(a: argparse.Namespace) -> tuple[str, int]:
     draw(document, [folder / f"work_precision.{form}" for form in ("png", "svg")])
     print(f"written to {folder}: work_precision.json, .csv, .png, .svg", file=sys.stderr)
     return render(document, a.format), DONE
+
+
+def _prove(a: argparse.Namespace) -> tuple[str, int]:
+    from ..proofs import prove
+    from .proof_formats import render
+
+    found = prove(a.names, a.errata, os.cpu_count() or 1, _progress)
+    _progress("")
+    code = DONE if found.is_accepted else CONTRADICTED
+    text = render(found, a.format, whole=bool(a.names), errata=a.errata)
+    return text, INTERRUPTED if found.is_interrupted else code
 
 
 def _folder(name: str) -> Path:

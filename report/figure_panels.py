@@ -25,8 +25,7 @@ WIDTH = 3.5
 
 COLOURS = tuple(LIGHT[name] for name in SERIES)
 MARKERS = ("o", "s", "^", "D", "v", "P")
-DASHES = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1, 1, 1)), (0, (1, 1)), (0, (3, 2)))
-"""Line styles of the curves of one panel, as many as there are colours and markers."""
+"""Of the curves of one panel, as many as there are colours."""
 
 _SETTINGS = {
     "font.family": "DejaVu Sans",

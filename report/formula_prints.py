@@ -82,7 +82,9 @@ def latex(f: Formula, is_outer: bool = True) -> str:
     the factors of the outer row."""
     match f:
         case Word():
-            return r"\allowbreak " if is_outer and f.kind == "times" else _latex_word(f)
+            if is_outer and f.kind == "times":
+                return r"\allowbreak "
+            return _latex_word(f) + (r"\allowbreak " if is_outer and f.text == "," else "")
         case Row(parts):
             return "".join(latex(p, is_outer) for p in parts)
         case Fraction(over, under):
@@ -125,6 +127,9 @@ def mathml(f: Formula, display: bool = False) -> str:
         if isinstance(p, Word) and p.kind in ("relation", "binary") and stretches[-1]:
             stretches.append([])
         stretches[-1].append(p)
+        if p == Word(",", "mark"):
+            stretches.append([])
+    stretches = [s for s in stretches if s]
     style = ' displaystyle="true"' if display else ""
     return " ".join(f"<math{style}>{_stretch(tuple(s))}</math>" for s in stretches)
 

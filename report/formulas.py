@@ -82,6 +82,7 @@ GREEK: dict[str, str] = {
 }  # fmt: skip
 """Names of Greek letters and the letters."""
 
+_WIDE = 28  # nodes of a sum
 _NAMES = {"besselj": "J", "gamma": "Γ", "Min": "min", "Max": "max"}
 
 
@@ -115,8 +116,10 @@ def term(e: Expr, flat: bool = False) -> Formula:
     """A term laid out; ``flat`` writes fractions as a/b, for exponents and arguments."""
     if e.is_Rational:
         return _rational(e, flat)
-    if e in (sympy.pi, sympy.E, sympy.oo, -sympy.oo):
-        sign = {sympy.pi: "π", sympy.E: "e"}.get(e, "∞")
+    if e == sympy.E:  # a bare e is the effective exponent
+        return row(Word("exp", "name"), Bracket(Word("1", "number")))
+    if e in (sympy.pi, sympy.oo, -sympy.oo):
+        sign = "π" if e == sympy.pi else "∞"
         return row(MINUS, Word(sign, "letter")) if e == -sympy.oo else Word(sign, "letter")
     if e.is_Symbol:
         return symbol(e.name)
@@ -185,16 +188,24 @@ def _product(e: Expr, flat: bool) -> Formula:
         if f.is_Pow and _divides(f):
             under.append(f.base**-f.exp)
         else:
-            (behind if f.has(*_LARGE) and not flat else over).append(f)
+            (behind if _is_wide(f) and not flat else over).append(f)
     is_whole = all(f == 1 for f in under)
     over = over + behind if is_whole else over
-    above, below = _side_by_side(over, flat), _side_by_side(under, flat)
+    above = _side_by_side(over, flat, bracketed=flat and not is_whole)
+    below = _side_by_side(under, flat)
     size = above if is_whole else _over(above, below, flat)
     if behind and not is_whole:
         size = row(size, TIMES, _side_by_side(behind, flat, bracketed=True))
     alone = rest.is_Add and bool(abs(number) == 1)
     size = Bracket(size) if alone and not isinstance(size, Bracket) else size
     return row(MINUS, size) if number < 0 else size
+
+
+def _is_wide(f: Expr) -> bool:
+    """Whether a factor is too wide to stand on a fraction's line."""
+    if f.has(*_LARGE):
+        return True
+    return bool(f.is_Add) and sum(1 for _ in sympy.preorder_traversal(f)) > _WIDE
 
 
 def _side_by_side(factors: list[Expr], flat: bool, bracketed: bool = False) -> Formula:
@@ -230,7 +241,7 @@ def _power(base: Expr, exponent: Expr, flat: bool) -> Formula:
         return Root(term(base, flat))
     if exponent.is_Integer and (base.is_Function and not isinstance(base, sympy.exp)):
         return _applied(base, term(exponent))
-    is_plain = base.is_Symbol or (base.is_Integer and base >= 0) or base in (sympy.pi, sympy.E)
+    is_plain = base.is_Symbol or (base.is_Integer and base >= 0) or base == sympy.pi
     shown = term(base, flat)
     above = term(exponent, flat=True)
     if is_plain and isinstance(shown, Script):
@@ -264,7 +275,7 @@ def _applied(e: Expr, above: Formula | None) -> Formula:
 def _is_place(e: Expr) -> bool:
     """Whether an argument counts, as i, n + 1 or 3, so that it is written as an index."""
     letters = {s.name[0] for s in e.free_symbols}
-    return e.is_Integer or (letters <= set("hijklmnMN") and (e.is_Symbol or e.is_Add))
+    return e.is_Integer or (letters <= set("hijklmnrMN") and (e.is_Symbol or e.is_Add))
 
 
 def _listed(arguments: list[Expr]) -> Formula:

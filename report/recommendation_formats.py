@@ -88,6 +88,9 @@ def _cells(found: Alternative, r: Reached) -> list[str]:
 def _notes(found: Recommendations) -> Iterator[str]:
     for r in found.layout.reached if found.layout else ():
         yield f"{r.wanted.text}: {r.why}"
+    for a in found.alternatives[:_SHOWN]:
+        if a.warning is not None:
+            yield f"{_name(a)}: {a.warning}"
     hidden = len(found.alternatives) - _SHOWN
     if hidden > 0:
         yield f"{hidden} more layouts are in the formats json and csv."

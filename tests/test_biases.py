@@ -12,8 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from point_sets import centred_latin_hypercube, grid, independent, of_kind
-from specrate.numerics.checking.biases import axis_means, log_capital
+from specrate.numerics.checking.biases import axis_means, log_capital, measured_bias
 from specrate.numerics.checking.faults import BIAS_LEVEL, Findings, find_faults
+from specrate.numerics.measuring.moments import Moments, update
 from specrate.numerics.measuring.probes import amplitudes, frequencies
 from specrate.numerics.point_sources.fault_kinds import Fault
 from specrate.numerics.streams import stream
@@ -146,3 +147,13 @@ def test_no_valid_test_needs_fewer_than_24() -> None:
     assert BIAS_LEVEL / tests < 2.0 ** (1 - 23)
     needed = math.log(14 * tests / BIAS_LEVEL) / math.log(1.98)
     assert math.ceil(needed) == 29
+
+
+def test_a_small_bias_shows_in_all_realisations():
+    """Means 7 standard errors off: found at 13, not at 4, nor with too few realisations."""
+    errors = stream(43).normal(size=2048) / 10
+    errors -= errors.mean()
+    for mean, count, is_found in ((0.03, 2048, True), (0.009, 2048, False), (0.3, 512, False)):
+        fault = measured_bias(16, {"bernoulli:k=1": update(Moments(), errors[:count] + mean)})
+        assert (fault is not None) is is_found
+    assert measured_bias(16, {"bernoulli:k=1": update(Moments(), np.full(2048, 1e-16))}) is None

@@ -193,3 +193,9 @@ def test_a_plan_of_another_version(tmp_path):
             check([], 2, plan=path)
     with pytest.raises(InputError, match="must be readable"):
         check([], 2, plan=tmp_path / "absent.json")
+
+
+@pytest.mark.parametrize("claims", ["jitter", ["jitter", 3], None])
+def test_claims_that_are_no_list_of_texts_are_refused(claims):
+    with pytest.raises(InputError, match="claims must be a list of texts: got"):
+        check("jitter", 2, claims)

@@ -30,6 +30,7 @@ from specrate.report.check_profiles import (
 )
 from specrate.report.check_spectra import plane_panels
 from specrate.report.figure_panels import inline
+from specrate.report.numerals import number
 from specrate.report.variance_curves import by_region, curves_of
 
 NONE = SpectrumPictures()
@@ -120,6 +121,49 @@ def test_a_profile_panel_names_every_n_and_the_curves():
     assert "N = 64: N·P_S = 8.03 [6.69, 10.4]×10⁻⁴, claimed 8.03×10⁻⁴ at |m| = 1" in panel.about
     assert "b = 2.00 [1.90, 2.10]" in panel.about
     assert drawn(panel).count("stroke-dasharray") > 1
+
+
+def test_fitted_curves_are_solid_as_their_sample_in_the_legend():
+    """Broken is the line of independent points alone, so that a caption can tell them apart."""
+    figure = Figure()
+    profile_panel(profile(counts=(16, 64, 256))).draw(figure)
+    lines = [x for x in figure.axes[0].get_lines() if x.get_linestyle() != "None"]
+    assert sum(x.get_linestyle() == "-" for x in lines) == 3
+    assert [set(x.get_ydata()) for x in lines if x.get_linestyle() != "-"] == [{1.0}]
+    (legend,) = figure.legends
+    styles = {
+        t.get_text(): x for t, x in zip(legend.get_texts(), legend.legend_handles, strict=True)
+    }
+    assert styles["fitted profile"].get_linestyle() == "-"
+    assert styles["independent points"].get_linestyle() not in ("-", "None")
+    assert styles["claimed, exact"].get_marker() == "_"
+    caption = figures(example("contradicted"), pictures())[1].caption
+    assert "short strokes: exact" in caption
+    assert "Solid curves" in caption
+    assert "dotted line: independent points" in caption
+
+
+@pytest.mark.parametrize("factor", [1.0, 1e-3])
+def test_the_caption_tells_where_the_drawn_colours_end(factor):
+    one = plane()
+    measured = replace(one.measured, mean=one.measured.mean * factor)
+    shown = SpectrumPictures((replace(one, measured=measured, exact=one.exact * factor),))
+    figure = Figure()
+    plane_panels(shown.planes)[0].draw(figure)
+    norm = figure.axes[0].images[0].norm
+    assert (norm.vmin < 1e-3) == (factor < 1)
+    told = figures(example("consistent"), shown)[0].caption
+    assert f"colours go from {number(norm.vmin)} to {number(norm.vmax)}" in told
+    assert ("smaller values having the first" in told) == (factor < 1)
+    nothing = figures(example("consistent"), NONE)[0].caption
+    assert "colours go" not in nothing
+
+
+def test_intervals_that_are_not_seen_are_explained():
+    assert (
+        "none is seen it is smaller than the mark"
+        in figures(example("consistent"), NONE)[3].caption
+    )
 
 
 def test_more_n_than_colours_keep_the_ends():

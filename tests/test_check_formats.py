@@ -27,7 +27,7 @@ def contradicted() -> Document:
 def wide() -> Document:
     """Many dimensions, where regions must be summarised."""
     name = "latin-hypercube"
-    return check(name, 10, [name], counts=[16, 64], budget=1)
+    return check(name, 10, [name], counts=[16, 64], budget=8)
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def test_every_interval_tells_its_level(contradicted: Document) -> None:
     text = render(contradicted, "terminal")
     for head in ("N·P_S measured [95 %]", "variance [95 %]", "slope [95 %]"):
         assert head in text
-    assert "with probability at most 1e-05" in text
+    assert "with a probability set to 1e-05" in text
 
 
 def test_the_most_telling_frequency_is_shown(contradicted: Document) -> None:
@@ -164,7 +164,7 @@ def test_faults_come_second() -> None:
         "margin": 0.25,
         "exponent_margin": 0.25,
     }
-    document = {**points, **rest, **numbers, "interrupted": True, "budget_needed_seconds": None}
+    document = {**points, **rest, **numbers, "interrupted": True, "budget_needed": None}
     fault = {"kind": "piled points", "detail": "why", "evidence": {}, "remedy": "mend it"}
     document["faults"] = [fault]
     first, second, third, *_ = render(document, "terminal").splitlines()

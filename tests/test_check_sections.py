@@ -26,7 +26,7 @@ def words(markup) -> str:
             [
                 "Asked whether jitter in 1D meets the claim jitter : ✓ consistent at N = 16 to 64",
                 "since all measured values lie within 25% of the claimed",
-                "a correct claim is contradicted with probability 10⁻⁵ at most.",
+                "a correct claim is contradicted with a probability set to 10⁻⁵.",
             ],
         ),
         (

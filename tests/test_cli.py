@@ -84,6 +84,7 @@ BAD = {
     "bad dimension": ["table", "--dim", "2.5"],
     "dimension 0": ["table", "--dim", "0"],
     "bad class": ["table", "--integrand", "worse"],
+    "unknown proof": ["prove", "99"],
     "bad decay": ["table", "--integrand", "p=1"],
     "disk in 3D": ["table", "--dim", "3", "--integrand", "disk"],
     "bad primitive": ["table", "--primitive", "0-flat"],
@@ -341,3 +342,21 @@ def test_a_table_refuses_parameters_out_of_range(integrand, capsys):
     out, err = capsys.readouterr()
     assert not out
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        (["check", "jitter", "--claim", "jitter"], "got no --dim"),
+        (["check", "--dim", "2"], "got no SOURCE"),
+        (["check"], "got no SOURCE and no --dim"),
+        (["recommend", "axis/best ~ 3", "--dim", "0"], "whole number of at least 1: got 0 "),
+        (["recommend", "axis/best ~ 3", "--dim", "d"], "whole number of at least 1: got d "),
+    ],
+)
+def test_what_is_missing_is_named(
+    capsys: pytest.CaptureFixture[str], command: list[str], told: str
+) -> None:
+    code, out, err = run(capsys, *command)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert told in err.replace("\n", " ")

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from point_sets import centred_latin_hypercube, grid, independent, jitter, of_kind
+from specrate.numerics.checking.coincidences import coincidences
 from specrate.numerics.checking.faults import find_faults
 from specrate.numerics.streams import stream
 
@@ -193,3 +194,27 @@ def test_shared_values_that_are_no_strata_are_quantised() -> None:
     points = stream(37).choice(values, (10, 16, 1))
     found = of_kind(find_faults(points), "quantised coordinates")
     assert "got 20 values in" in found[0].detail
+
+
+@pytest.mark.parametrize(
+    ("spoil", "value", "axes"),
+    [
+        (lambda p: np.minimum(p, 0.95), 0.95, [1, 2]),
+        (lambda p: np.concatenate([np.zeros_like(p[:, :1]), p[:, 1:]], axis=1), 0.0, [1, 2]),
+        (lambda p: np.where([True, False], np.maximum(p, 0.05), p), 0.05, [1]),
+    ],
+)
+def test_values_that_realisations_share(spoil, value, axes):
+    points = spoil(stream(41).random((64, 16, 2)))
+    faults, _ = coincidences(points, [4, 16])
+    (found,) = [f for f in faults if f.kind == "repeated values"]
+    assert (found.evidence["value"], found.evidence["axes"]) == (value, axes)
+    assert found.evidence["realisations"] >= 8
+    assert found.remedy
+
+
+def test_a_grain_of_thirty_bits_repeats_no_value():
+    """Half a million values: about 128 pairs are equal, and any eight with probability 1e-17."""
+    points = stream(42).integers(0, 2**30, (128, 4096, 1)) / 2**30
+    faults, _ = coincidences(points, [64])
+    assert "repeated values" not in [f.kind for f in faults]

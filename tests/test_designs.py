@@ -148,6 +148,13 @@ def test_what_is_no_claims_file(tmp_path, text):
     assert "\n" not in str(caught.value)
 
 
+def test_an_entry_that_is_no_claim_is_named(tmp_path):
+    path = tmp_path / "claims.json"
+    path.write_text('["jitter", 5]')
+    with pytest.raises(InputError, match="JSON list of texts: got 5 as entry 2 in"):
+        claim_texts(str(path))
+
+
 def test_a_missing_claims_file():
     with pytest.raises(InputError, match="must be readable: got No such file"):
         claim_texts("absent.json")

@@ -5,7 +5,7 @@ import importlib
 import pytest
 
 
-@pytest.mark.parametrize("room", ["specrate.theory", "specrate.numerics"])
+@pytest.mark.parametrize("room", ["specrate.theory", "specrate.numerics", "specrate.proofs"])
 def test_every_door_opens(room: str) -> None:
     module = importlib.import_module(room)
     assert module.__all__

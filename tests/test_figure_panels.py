@@ -15,7 +15,6 @@ pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure
 from specrate.report.figure_panels import (
     COLOURS,
-    DASHES,
     MARKERS,
     Panel,
     inline,
@@ -90,8 +89,8 @@ def test_long_labels_are_wrapped() -> None:
     assert max(map(len, wrapped("x" * 100).split("\n"))) <= 52
 
 
-def test_curves_of_one_panel_differ_in_colour_marker_and_dashes() -> None:
-    for styles in (COLOURS, MARKERS, DASHES):
+def test_curves_of_one_panel_differ_in_colour_and_marker() -> None:
+    for styles in (COLOURS, MARKERS):
         assert len(set(styles)) == len(COLOURS) == 6
 
 

@@ -33,7 +33,7 @@ def test_files_that_are_used_up_ask_for_no_budget(tmp_path):
     write_text(tmp_path / "p.txt", stream(1, 2).random((20, 16, 2)))
     found = check(str(tmp_path / "p.txt"), 2, ["random"])
     assert found["verdict"] == "inconclusive"
-    assert found["budget_needed_seconds"] is None
+    assert found["budget_needed"] is None
     assert "more realisations" in told(found)
 
 

@@ -51,6 +51,12 @@ def test_terminal_tells_the_layout_first_and_each_shortfall():
     assert any(x.startswith("left out: isotropic") for x in lines)
 
 
+@pytest.mark.parametrize("form", ["terminal", "markdown", "latex"])
+def test_a_grid_is_warned_of(form):
+    lines = render(WANTED, 2, form).splitlines()
+    assert sum("regular: aliasing: a regular grid's errors oscillate" in x for x in lines) == 1
+
+
 def test_terminal_says_when_nothing_reaches():
     assert "no layout reaches all of it" in render(["generic/worst ~ 9"], 1, "terminal")
 

@@ -79,6 +79,17 @@ def test_the_freest_in_n_comes_first():
     assert [a.admitted for a in reaching] == sorted((a.admitted for a in reaching), reverse=True)
 
 
+def test_a_grid_comes_after_random_layouts_and_with_a_warning():
+    found = recommend(["axis/best ~ 3", "generic/worst ~ 3/2"], 2)
+    names = [a.layout for a in found.alternatives if a.reaches_all]
+    assert names == ["multi-jitter", "correlated-multi-jitter", "regular"]
+    for a in found.alternatives:
+        assert (a.warning is not None) == a.is_comb == (a.layout == "regular")
+        if a.warning is not None:
+            assert "aliasing: a regular grid's errors oscillate" in a.warning
+            assert "power at multiples of n" in a.warning
+
+
 def test_nothing_reaches_an_impossible_rate():
     found = recommend(["generic/worst ~ 9"], 2)
     assert found.layout is None
@@ -159,7 +170,10 @@ def test_admissible_counts(name, dim, law):
     [
         ([], 2, "needs a wanted rate"),
         (["jitter"], 2, "a wanted rate is"),
-        (["within/best ~ 3"], 3, "a region of this sampler is"),
+        (["within/best ~ 3"], 3, "a region of this sampler is .* or a support such as 1 or 1,3"),
+        (["within/best ~ 3"], 2, "a region of this sampler is .* or a support such as 1 or 1,2"),
+        (["within/best ~ 3"], 1, "a region of this sampler is .* or a support such as 1: got"),
+        (["axis/best ~ 3"], 0, "a dimension of at least 1: got 0"),
         (["4/best ~ 3"], 3, "distinct coordinates in 1..3"),
         (["overall/bernoulli:k=2,axes=(1,4) ~ 2"], 3, "axes must be in 1..3"),
     ],

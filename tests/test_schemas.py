@@ -18,7 +18,7 @@ from specrate.theory.errors import InputError
 
 COMMANDS = (
     *("table", "derive", "check", "variance", "radial", "stress", "work_precision"),
-    "recommend",
+    *("recommend", "prove"),
 )
 
 CROSSING = ("table", "--dim", "2", "--sampler", "n-rooks", "--integrand", "anisotropic-gaussian")

@@ -108,5 +108,36 @@ def test_what_cannot_be_checked_is_refused():
         assert_design(lambda n, dim, rng: rng.random((n, dim)), 1, ["random"], budget=0)
 
 
+@pytest.mark.parametrize("claims", [["jitter"], []])
+def test_a_check_that_measured_nothing_fails_in_one_line(claims):
+    """A billionth of a second is over before the child's interpreter runs."""
+    with pytest.raises(AssertionError) as raised:
+        assert_design(right, 1, claims, budget=1e-9)
+    told = str(raised.value)
+    rule = "right in 1D must be measured within a budget of 1e-09 s: got nothing, "
+    assert told == rule + "the sampler was being loaded when the budget was spent"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ((right, 1, "jitter"), "claims must be a list of texts: got 'jitter'"),
+        ((right, 1, ["jitter", 3]), "claims must be a list of texts: got ['jitter', 3]"),
+        ((lambda n, dim, rng: rng, "1", ["jitter"]), "must be a whole number: got '1'"),
+        ((right, "2", ["jitter"]), "the dimension must be a whole number: got '2'"),
+        ((right, 0, ["jitter"]), "the dimension must be at least 1: got 0"),
+        (
+            (None, 1, ["jitter"]),
+            "a sampler must be a function, a word or a list of words: got None",
+        ),
+        (([right], 1, ["jitter"]), "a sampler must be a function, a word or a list of words: got"),
+    ],
+)
+def test_arguments_of_another_type_are_refused(arguments, told):
+    with pytest.raises(InputError) as raised:
+        assert_design(*arguments)
+    assert told in str(raised.value)
+
+
 def test_strategies_are_offered_here_too():
     assert {"layouts", "integrands", "counts"} <= set(testing.__all__)

@@ -49,6 +49,8 @@ class Reached:
         The profile, the class and the exponent that follows.
     shortfall : Order or None
         Factor by which the variance exceeds the wanted one as N → ∞; None if the rate is reached.
+    aliased : bool
+        Whether all power there lies on the multiples of a number of strata, as that of a grid.
     """
 
     wanted: RateClaim
@@ -57,6 +59,7 @@ class Reached:
     condition: str
     why: str
     shortfall: Order | None
+    aliased: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,21 @@ class Alternative:
         return all(r.shortfall is None for r in self.reached)
 
     @property
+    def is_comb(self) -> bool:
+        """Whether all its power lies on aliases where a rate is wanted, as that of a grid."""
+        return any(r.aliased for r in self.reached)
+
+    @property
+    def warning(self) -> str | None:
+        """What a rate does not tell of a comb, in a sentence."""
+        if not self.is_comb:
+            return None
+        return (
+            "aliasing: a regular grid's errors oscillate, and they do not vanish for integrands "
+            "with power at multiples of n, the number of its points along an axis"
+        )
+
+    @property
     def failing(self) -> tuple[Reached, ...]:
         """Where it falls short."""
         return tuple(r for r in self.reached if r.shortfall is not None)
@@ -111,8 +129,8 @@ class Recommendations:
     dim : int
     wanted : tuple of RateClaim
     alternatives : tuple of Alternative
-        Those that reach all rates first, the freest in N before others; then those that fall
-        short, of the fewest rates first.
+        Those that reach all rates first; then those that fall short, of the fewest rates first.
+        Among these, random layouts before combs, and then the freest in N before others.
     left_out : tuple of LeftOut
     """
 
@@ -152,6 +170,8 @@ def recommend(wanted: Sequence[str], dim: int) -> Recommendations:
     """
     if not wanted:
         raise InputError("a recommendation needs a wanted rate: got none")
+    if dim < 1:
+        raise InputError(f"a recommendation needs a dimension of at least 1: got {dim}")
     claims = tuple(_rate(text, dim) for text in wanted)
     found: list[Alternative] = []
     left_out: list[LeftOut] = []
@@ -172,9 +192,9 @@ def _rate(text: str, dim: int) -> RateClaim:
     return claim
 
 
-def _place(found: Alternative) -> tuple[int, int]:
-    """Fewer rates missed first, then more admissible N."""
-    return len(found.failing), -found.admitted
+def _place(found: Alternative) -> tuple[int, bool, int]:
+    """Fewer rates missed first, then combs last, then more admissible N."""
+    return len(found.failing), found.is_comb, -found.admitted
 
 
 def _candidates(
@@ -265,7 +285,8 @@ def _reached(sampler: Sampler, claim: RateClaim, place: Mapping[int, int]) -> Re
     wanted = Order(claim.exponent, claim.log_power)
     short = None if dominates(wanted, slow.order) else _excess(slow.order, wanted)
     condition, why = _condition(slow), _why(slow)
-    return Reached(claim, slow.region.label, slow.order, condition, why, short)
+    aliased = slow.monomial.degree is sympy.oo
+    return Reached(claim, slow.region.label, slow.order, condition, why, short, aliased)
 
 
 def _regions(layout: Layout, name: str, place: Mapping[int, int]) -> tuple[Region, ...]:
@@ -355,6 +376,7 @@ def document(found: Recommendations) -> dict[str, object]:
                 "admissible": a.admissible,
                 "reaches": a.reaches_all,
                 "regions": [_region(r) for r in a.reached],
+                "warning": a.warning,
             }
             for a in found.alternatives
         ],

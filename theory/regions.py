@@ -196,8 +196,17 @@ def select(layout: Layout, text: str) -> tuple[Region, ...]:
     found = tuple(r for r in everything if _named(layout, r, word))
     if not found:
         names = ", ".join(dict.fromkeys(r.label for r in everything[:12]))
-        raise InputError(f"a region of this sampler is overall, {names}: got {text!r}")
+        rule = f"a region of this sampler is overall, {names}{_supports_told(layout)}"
+        raise InputError(f"{rule}: got {text!r}")
     return found
+
+
+def _supports_told(layout: Layout) -> str:
+    """That coordinates name a support, where the dimension is a number."""
+    if not layout.dim.is_Integer:
+        return ""
+    last = min(int(layout.dim), 3)
+    return " or a support such as 1" + (f" or 1,{last}" if last > 1 else "")
 
 
 def _named(layout: Layout, region: Region, word: str) -> bool:

@@ -18,6 +18,7 @@ from ..point_sources.fault_kinds import Fault
 from .check_evidence import claim, points, rates, regions
 from .check_pictures import pictures_of
 from .checks import Execution, Step, run_check
+from .designs import checked_claims
 from .fit_evidence import with_fitted_rates, with_profiles
 from .judgements import Judgement, State, judgements, matching, seconds_needed
 from .left_out import left_out
@@ -107,6 +108,7 @@ def _state(
 ) -> State:
     """What was asked, measured, or a plan's measurements again."""
     words = [sources] if isinstance(sources, str) else list(sources)
+    claims = checked_claims(claims)
     if plan is None:
         return run_check(words, dim, claims, integrands, counts, budget, seed, None, progress)
     old = read_plan(Path(plan))
@@ -173,6 +175,7 @@ def document(state: State) -> Document:
     """The JSON document of a check."""
     found, matched = judgements(state), matching(state)
     shown = structures_in(state.scans) if state.scans else None
+    needed = seconds_needed(state, found)
     measured = [m.n for m in state.measurements if m.replicates and not m.dropped]
     return {
         "verdict": verdict(state, found, matched),
@@ -191,7 +194,7 @@ def document(state: State) -> Document:
         "margin": MARGIN,
         "equivalence_level": EQUIVALENCE_LEVEL,
         "exponent_margin": exponent_margin(state.design.dim),
-        "budget_needed_seconds": seconds_needed(state, found),
+        "budget_needed": None if needed is None else {"seconds": needed},
         "interrupted": state.ended == "interrupted",
         "plan": _plan(state),
         "seconds": state.seconds,

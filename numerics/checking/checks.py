@@ -29,6 +29,7 @@ from ..point_sources.child_source import ChildSource, global_state_fault
 from ..point_sources.command_source import CommandSource, seed_fault
 from ..point_sources.fault_kinds import Fault, fault_of
 from ..point_sources.realisations import SamplerFault
+from .biases import measured_bias
 from .designs import all_frequencies, all_integrands, design, fault_of_count, ladder
 from .faults import BIAS_LEVEL, COINCIDENCE_LEVEL, find_faults
 from .fitted_profiles import FittedRegion, fit_seconds, fitted_regions, fitted_supports
@@ -136,6 +137,7 @@ def run_check(
             asked.source.process.close()
     for m in state.measurements:
         _look_for_faults(state, m)
+    _look_for_small_bias(state)
     if state.faults and state.ended != "interrupted":
         state.ended = "fault"
     if state.ended not in ("fault", "interrupted"):
@@ -315,6 +317,18 @@ def _look_for_faults(state: State, m: Measurement) -> None:
     known = {_what(f) for f in state.faults}  # one witness is enough, at the smallest N
     news = (Fault(f.kind, f.detail, {"n": m.n, **f.evidence}) for f in found.faults)
     state.faults += [f for f in news if _what(f) not in known]
+
+
+def _look_for_small_bias(state: State) -> None:
+    """Judge the means of all realisations, at the end, by the probes alone, which are bounded."""
+    if any(f.kind in ("bias", "not homogenised") for f in state.faults):
+        return
+    for m in state.measurements:
+        probes = {f.name: m.raw[f.name] for f in m.integrands if f.name.startswith("bernoulli")}
+        found = measured_bias(m.n, probes)
+        if found is not None:
+            state.faults.append(found)
+            return
 
 
 def _what(fault: Fault) -> tuple[str, tuple[int, ...]]:

@@ -1,9 +1,10 @@
-"""Coincidences that continuous points do not show: equal sets, piled points, values on a lattice.
+"""Coincidences that continuous points do not show: equal sets, piles, repeated values, lattices.
 
-Three kinds of fault:
+Four kinds of fault:
 
 - ``duplicate realisations``: two realisations are the same set of points.
 - ``piled points``: within one realisation, points are equal, or equal to many binary digits.
+- ``repeated values``: an axis has one value in many realisations (clamped, or never filled in).
 - ``quantised coordinates``: an axis takes the values of a lattice, or the realisations share
   their values.
 
@@ -28,6 +29,7 @@ _DIGITS = (16, 24, 32, 40, 48)  # binary, of cells; 53 stand for all
 _ALL_DIGITS = 53
 _CHUNK_VALUES = 1 << 17
 _POOLED_DRAWS = 1 << 21
+_SHARED = 8  # realisations with one value
 _MOST_STRATA = 1 << 16  # beyond, a single shift might meet their centres by chance
 # Spacings that betray float32 and its kin, or printed decimals; the coarsest that fits is named.
 _SCALES = tuple(sorted([2**b for b in range(1, 25)] + [10**k for k in range(1, 8)]))
@@ -49,8 +51,10 @@ def coincidences(points: Reals, strata: Sequence[int]) -> tuple[list[Fault], int
     # Twins share all their values: they would count as quantised for the wrong reason.
     singles = np.delete(points, list(twins), axis=0) if twins else points
     found = [_duplicates(twins, len(points)), _piles(points)]
-    faults = [fault for fault in found if fault is not None]
-    return faults + _quantised(singles, strata), len(singles)
+    quantised = _quantised(singles, strata)
+    known = {axis for fault in quantised for axis in fault.evidence["axes"]}
+    found.append(_repeated(singles, [a for a in range(1, points.shape[2] + 1) if a not in known]))
+    return [fault for fault in found if fault is not None] + quantised, len(singles)
 
 
 def _chunks(points: Reals) -> Iterator[slice]:
@@ -178,6 +182,31 @@ def _pile(points: Reals, digits: int, shared: NDArray[np.int64]) -> Fault:
             "count": size,
             "realisations_piled": piled,
         },
+    )
+
+
+def _repeated(points: Reals, axes: Sequence[int]) -> Fault | None:
+    """The value that most realisations share on an axis, if eight or more do.
+
+    Of values on the coarsest grain that is not taken for a lattice, 2^-30, and R N <= 2^21 of them,
+    any eight agree with a probability below 2^(21 · 8 − 30 · 7) / 8! < 1e-17.
+    """
+    shared: dict[int, tuple[float, int]] = {}
+    for axis in axes:
+        values = np.sort(points[: max(4, _POOLED_DRAWS // points.shape[1]), :, axis - 1], axis=1)
+        first = np.ones(values.shape, bool)
+        first[:, 1:] = values[:, 1:] != values[:, :-1]
+        places, counts = np.unique(values[first], return_counts=True)
+        if int(counts.max()) >= _SHARED:
+            shared[axis] = float(places[np.argmax(counts)]), int(counts.max())
+    if not shared:
+        return None
+    axis, (value, count) = max(shared.items(), key=lambda found: found[1][1])
+    return Fault(
+        "repeated values",
+        f"realisations must not share values: got {value:.9g} on axis {axis} in {count} of "
+        f"{len(points)} realisations",
+        {"axes": sorted(shared), "value": value, "realisations": count},
     )
 
 

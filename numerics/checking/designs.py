@@ -6,6 +6,7 @@ the ladder of N as a whole.
 """
 
 import json
+import operator
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -97,8 +98,7 @@ def design(
     InputError
         If any of it is outside its grammar, or a claim cannot be probed.
     """
-    if isinstance(dim, bool) or dim < 1:
-        raise InputError(f"the dimension must be at least 1: got {dim}")
+    dim = whole_dim(dim)
     if seed < 0:
         raise InputError(f"a seed must be at least 0: got {seed}")
     texts = [t for word in claims for t in claim_texts(word)]
@@ -109,6 +109,37 @@ def design(
     wanted = tuple(parse_integrand(t, dim) for t in integrands)
     source = open_source(list(words), dim, limits)
     return Design(tuple(words), source, dim, parsed, wanted, seed)
+
+
+def whole_dim(dim: Any) -> int:
+    """A dimension, a whole number of at least 1.
+
+    Raises
+    ------
+    InputError
+        If it is none, as a text is.
+    """
+    try:
+        found = operator.index(dim)
+    except TypeError:
+        raise InputError(f"the dimension must be a whole number: got {dim!r}") from None
+    if isinstance(dim, bool) or found < 1:
+        raise InputError(f"the dimension must be at least 1: got {dim}")
+    return found
+
+
+def checked_claims(claims: Any) -> tuple[str, ...]:
+    """Claims as they were given, a sequence of texts.
+
+    Raises
+    ------
+    InputError
+        If they are none: a single text is a sequence of letters.
+    """
+    is_list = isinstance(claims, Sequence) and not isinstance(claims, str)
+    if not is_list or not all(isinstance(text, str) for text in cast("list[object]", claims)):
+        raise InputError(f"claims must be a list of texts: got {claims!r}")
+    return tuple(cast("Sequence[str]", claims))
 
 
 def claim_texts(word: str) -> list[str]:
@@ -130,8 +161,11 @@ def claim_texts(word: str) -> list[str]:
         ) from None
     except ValueError as error:
         raise InputError(f"{rule}: got {error} in {word}") from None
-    if not isinstance(found, list) or not all(isinstance(t, str) for t in cast("list[Any]", found)):
+    if not isinstance(found, list):
         raise InputError(f"{rule}: got another document in {word}")
+    for place, text in enumerate(cast("list[Any]", found), 1):
+        if not isinstance(text, str):
+            raise InputError(f"{rule}: got {json.dumps(text)} as entry {place} in {word}")
     return cast("list[str]", found)
 
 
@@ -151,11 +185,16 @@ def rate_probes(claim: RateClaim, dim: int) -> tuple[Integrand, ...]:
     if family in ("worst", "best", "p"):
         supports = support_of(claim.region, dim)
         return tuple(probe(dim, _degree(claim, len(s)), s) for s in supports)
-    if claim.region != "overall" and family != "bernoulli":
+    integrand = parse_integrand(claim.decay.name, dim)
+    is_inside = integrand.support is not None and claim.region != "overall"
+    if is_inside and integrand.support not in support_of(claim.region, dim):
+        raise InputError(f"an integrand must have power on the claimed region: got {claim.text!r}")
+    if not is_inside and claim.region != "overall":
         raise InputError(
-            f"a claim on a named integrand must be on the region overall: got {claim.text!r}"
+            "a claim on an integrand with power on several supports must be on the region overall: "
+            f"got {claim.text!r}"
         )
-    return (parse_integrand(claim.decay.name, dim),)
+    return (integrand,)
 
 
 def _additive_probes(claim: RateClaim, dim: int) -> tuple[Integrand, ...]:

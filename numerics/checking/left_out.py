@@ -95,6 +95,8 @@ def _counts(state: State) -> Iterator[tuple[str, str]]:
         for text, by_n in state.spectra.items():
             if m.n not in by_n:
                 yield f"{text} at N = {m.n}", "the claimed sampler has no such number of points"
+    if measured and state.design.claimed_samplers:
+        yield f"N above {max(measured)}", "a defect that sets in at more points is not seen"
     yield from _single(state.measurements)
     yield from _late(state)
     held = state.design.source.realisations

@@ -18,10 +18,10 @@ on a ladder of N, and both steps use the test that allows for drift.
 
 import contextlib
 import time
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from ...theory.claims import RateClaim, SamplerClaim, parse_claim
 from ...theory.errors import InputError
 from ...theory.samplers import Sampler, family_of
+from ..checking.designs import whole_dim
 from ..checking.verdicts import (
     FALSE_ALARM,
     LEAST,
@@ -41,7 +42,8 @@ from ..measuring.moments import Moments, update, variance_interval
 from ..measuring.probes import Frequency, amplitudes, strata_of_claim
 from ..measuring.tails import is_seen
 from ..point_sources.catalogue_source import counts_of, open_source
-from ..point_sources.child_processes import Limits, OutOfTime
+from ..point_sources.child_processes import Limits, OutOfTime, unanswered
+from ..point_sources.imports import refuse_unless_source, word_of
 from ..point_sources.realisations import SamplerFault
 from ..point_sources.sources import CallableSource
 from .exact_falsifiers import falsify_exactly
@@ -65,6 +67,7 @@ SamplerFunction = Callable[[int, int, np.random.Generator], object]
 
 _EXPLORED, _CONFIRMED = 256, 1024  # realisations
 _PROPOSED = 100  # candidates that Hypothesis may propose, before it shrinks
+_SILENT = 0.5  # share of the budget that one call may take
 _MOST_POINTS, _MOST_STORED = 256, 4096  # of a realisation that is drawn, and from a file
 
 
@@ -80,8 +83,11 @@ def falsify(
     Parameters
     ----------
     source : str, sequence of str or callable
-        As for `check`, or a function (n, dim, rng), which is called in this process. A catalogue
-        sampler is judged by its exact spectrum, and nothing is drawn.
+        As for `check`, or a function (n, dim, rng). One that another interpreter can import by
+        name is drawn in a child process with limits, so that a script must guard what it runs by
+        ``if __name__ == "__main__"``; any other, a lambda or a local function, in
+        this process, where nothing guards against a call that never returns or that ends the
+        process. A catalogue sampler is judged by its exact spectrum, and nothing is drawn.
     claim : str
         A catalogue sampler, or REGION/CLASS ~ EXPONENT [log Q].
     dims : sequence of int
@@ -102,11 +108,10 @@ def falsify(
     Raises
     ------
     InputError
-        If no dimension has both the sampler and the claim, or hypothesis is not installed.
+        If no dimension has both the sampler and the claim, the sampler has a fault in all that
+        could be searched or does not answer within the budget, or hypothesis is not installed.
     """
-    if not dims or min(dims) < 1 or seed < 0 or not 0 < budget < float("inf"):
-        given = f"{tuple(dims)}, {seed} and {budget}"
-        raise InputError(f"a search needs dims >= 1, seed >= 0 and 0 < budget: got {given}")
+    _refuse_unusable(source, claim, dims, seed, budget)
     if isinstance(source, str) and family_of(source) is not None:
         return falsify_exactly(source, claim, dims)
     hypothesis()
@@ -114,24 +119,60 @@ def falsify(
     limits = Limits(min(60.0, budget), deadline=deadline)
     with contextlib.ExitStack() as opened:
         usable: list[_Explored] = []
-        refusals: list[Exception] = []
-        for dim in sorted(set(dims)):
+        refusals: list[InputError | SamplerFault] = []
+        every = sorted(set(dims))
+        for dim in every:
             try:
                 parsed = parse_claim(claim, dim)
                 found = opened.enter_context(_opened(source, dim, limits))
                 search = Search(found, claim, seed, deadline, tally)
                 witness = _first_look(search, parsed, usable)
-            except OutOfTime:
+            except OutOfTime as late:
+                if len(refusals) == every.index(dim):  # nothing has been searched before
+                    _refuse_silent(late, refusals, budget, limits)
                 return None
             except (InputError, SamplerFault) as error:
                 refusals.append(error)
                 continue
             if witness is not None or search.is_over:
                 return witness
-        if len(refusals) == len(set(dims)):
+        if len(refusals) == len(every):
+            _refuse_fault(refusals)
             rule = "the sampler and the claim must be usable in one of the dimensions"
-            raise InputError(f"{rule} {', '.join(map(str, sorted(set(dims))))}: got {refusals[-1]}")
+            raise InputError(f"{rule} {', '.join(map(str, every))}: got {refusals[-1]}")
         return _second_look(usable)
+
+
+def _refuse_unusable(source: Any, claim: Any, dims: Any, seed: int, budget: float) -> None:
+    refuse_unless_source(source)
+    if not isinstance(claim, str):
+        raise InputError(f"a claim must be a text: got {claim!r}")
+    rule = "a search needs dims >= 1, seed >= 0 and 0 < budget"
+    if isinstance(dims, str) or not isinstance(dims, Iterable):
+        raise InputError(f"{rule}, dims being a list of whole numbers: got {dims!r}")
+    every = tuple(map(whole_dim, cast("Iterable[object]", dims)))
+    if not every or seed < 0 or not 0 < budget < float("inf"):
+        raise InputError(f"{rule}: got {every}, {seed} and {budget}")
+
+
+def _refuse_silent(
+    late: OutOfTime, refusals: Sequence[InputError | SamplerFault], budget: float, limits: Limits
+) -> None:
+    """Refuse a sampler with a fault, without an answer, or whose one call took half the budget."""
+    _refuse_fault(refusals)
+    if late.evidence["drawn"] and late.evidence["seconds"] < _SILENT * budget:
+        return
+    if "n" not in late.evidence:
+        raise InputError(f"{late.detail} within the budget of {budget:g} s")
+    name = late.detail.split(" must answer", 1)[0]
+    raise InputError(unanswered(late, name, limits).detail)
+
+
+def _refuse_fault(refusals: Sequence[InputError | SamplerFault]) -> None:
+    """Refuse a sampler that has shown a fault; the first tells it."""
+    for found in refusals:
+        if isinstance(found, SamplerFault):
+            raise InputError(found.detail) from found
 
 
 @contextlib.contextmanager
@@ -139,10 +180,12 @@ def _opened(
     source: str | Sequence[str] | SamplerFunction, dim: int, limits: Limits
 ) -> Generator[AnySource]:
     """The source in a dimension; its process is ended afterwards."""
-    if callable(source):
+    named = word_of(source) if callable(source) else source
+    if named is None:
+        assert callable(source)
         yield CallableSource(getattr(source, "__qualname__", repr(source)), source, dim)
         return
-    words = [source] if isinstance(source, str) else list(source)
+    words = [named] if isinstance(named, str) else list(named)
     opened = open_source(words, dim, limits)
     try:
         yield opened

@@ -64,6 +64,12 @@ def _piled(evidence: Evidence) -> str:
     return "draw a new place for every point, or jitter each point inside its own stratum"
 
 
+def _repeated(evidence: Mapping[str, Any]) -> str:
+    if evidence["value"] == 0:
+        return "fill every row of the array that is returned: coordinates were left at 0"
+    return "reduce coordinates modulo 1 instead of clamping them"
+
+
 def _quantised(evidence: Evidence) -> str:
     spacing = evidence["spacing"]
     if evidence["strata"] is not None:
@@ -104,6 +110,7 @@ REMEDIES: Mapping[str, str | Callable[[Evidence], str]] = {
     "duplicate realisations": f"{_DRAW}; a fixed point set goes into a point file, one for each N, "
     "and is then homogenised by random shifts",
     "piled points": _piled,
+    "repeated values": _repeated,
     "quantised coordinates": _quantised,
     "bias": _SHIFT,
     "not homogenised": "shift each realisation by one uniform random vector modulo 1",

@@ -1,18 +1,21 @@
 """Python objects named by ``module:name`` or ``path.py:name``, imported without being evaluated.
 
 The name may be dotted. Whatever goes wrong on the way, also inside the module, is an `InputError`
-of one line.
+of one line. And back: `word_of` names a function so that another interpreter finds it.
 """
 
 import contextlib
 import hashlib
 import importlib
 import importlib.util
+import inspect
 import os
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
+from importlib.machinery import PathFinder
 from pathlib import Path
 from types import ModuleType
+from typing import Any, cast
 
 from ...theory.errors import InputError
 from .pointfiles import POINT_SUFFIXES
@@ -100,3 +103,57 @@ def _import_fault(error: BaseException, word: str) -> InputError:
 
 def one_line(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
+
+
+def word_of(sampler: object) -> str | None:
+    """``module:name`` or ``path.py:name`` by which another interpreter finds a function.
+
+    Returns
+    -------
+    str or None
+        None for a lambda, a local function, a bound method, or what its module does not hold
+        under its own name.
+    """
+    name, module = getattr(sampler, "__qualname__", None), getattr(sampler, "__module__", None)
+    if not (
+        inspect.isfunction(sampler) and name and all(p.isidentifier() for p in name.split("."))
+    ):
+        return None
+    holder: Any = sys.modules.get(module or "")
+    for part in name.split("."):
+        holder = getattr(holder, part, None)
+    if holder is not sampler or module is None:
+        return None
+    file = Path(inspect.getfile(sampler)).resolve()
+    if module != "__main__" and _is_found(module, file):
+        return f"py:{module}:{name}"
+    return f"py:{file}:{name}" if file.suffix == ".py" and file.is_file() else None
+
+
+def _is_found(module: str, file: Path) -> bool:
+    """Whether a fresh import of the module leads to the file."""
+    search, origin = None, None
+    parts = module.split(".")
+    for i in range(len(parts)):
+        spec = PathFinder.find_spec(".".join(parts[: i + 1]), search)
+        if spec is None:
+            return False
+        search, origin = spec.submodule_search_locations, spec.origin
+    return origin is not None and Path(origin).resolve() == file
+
+
+def refuse_unless_source(source: Any) -> None:
+    """Refuse what is neither a function nor a word nor words.
+
+    Raises
+    ------
+    InputError
+        As when None is given.
+    """
+    if callable(source) or isinstance(source, str):
+        return
+    if isinstance(source, Sequence) and all(
+        isinstance(word, str) for word in cast("Sequence[object]", source)
+    ):
+        return
+    raise InputError(f"a sampler must be a function, a word or a list of words: got {source!r}")

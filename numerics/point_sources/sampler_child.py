@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...theory.errors import InputError
+from . import sampler_processes
 from .child_processes import limit_memory
 from .realisations import SamplerFault
 from .sources import CallableSource, Source, load_source
@@ -48,6 +49,7 @@ class _Slots:
 def main(channel_descriptor: int, slots_descriptor: int) -> None:
     """Load the sampler of the first request, then answer until the caller closes the socket."""
     sys.argv = [""]
+    sampler_processes.serving = True
     for descriptor in (channel_descriptor, slots_descriptor):
         os.set_inheritable(descriptor, False)
     threading.Thread(target=_end_with_caller, args=(channel_descriptor,), daemon=True).start()

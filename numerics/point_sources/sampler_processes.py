@@ -51,6 +51,9 @@ _EXIT = 5.0  # seconds for a child that has closed its socket to be gone
 _LONGEST_LINE = 1 << 20
 _MOST_VALUES = 1 << 20  # coordinates asked for at once: 8 MiB, or one realisation
 
+serving = False
+"""Whether this process is itself the child of a sampler."""
+
 Value = dict[str, Any]
 T = TypeVar("T")
 
@@ -195,8 +198,12 @@ def _start(process: SamplerProcess) -> _Running:
     Raises
     ------
     InputError
-        If it cannot be started, as when its folder is gone.
+        If it cannot be started, as when its folder is gone, or in a child, whose script calls it
+        without a guard and would start children without end.
     """
+    if serving:
+        rule = "a script must guard what it runs by if __name__ == '__main__'"
+        raise InputError(f"{rule}: got a call while its sampler was imported")
     ours, theirs = socket.socketpair()
     slots = _shared_file()
     # Not the empty path: a random.py of the current folder would hide the library's.

@@ -1,0 +1,128 @@
+"""Section 6 up to 6.1, Eqs. 16-18: cases of the integrand, the radial integral, profiles."""
+
+from functools import partial
+
+from .. import axis_terms, classes, integrand_rows, jitter_bounds, profile_limits, radial
+from ..entry import Entry
+
+
+def _closed(case: radial.Case, form: str) -> Entry:
+    return Entry(
+        number=f"17, {case}",
+        title=f"the radial integral in closed form, {form}",
+        source="Section 6.1, Eq. 17 with Eqs. 16 and 18",
+        status="corrected",
+        holds=radial.closed_form(case).claim,
+        proof=partial(radial.closed_form, case),
+        as_printed="Σ_k [∫_0^ν ... + ∫_ν^∞ ... dρ",
+        notes="One region, s for d; printed without the closing bracket and Δn_k; needs ρ0 <= ν.",
+    )
+
+
+ENTRIES = (
+    Entry(
+        number="16",
+        title="worst case with rows that meet: its energy is c ρ0^d (d + 1)/d",
+        source="Section 6, Eq. 16",
+        status="corrected",
+        holds=integrand_rows.energy().claim,
+        proof=integrand_rows.energy,
+        printed=integrand_rows.ROWS,
+        as_printed="P_f = c_f below ρ0, c_f ρ^(−d−1) beyond",
+        refutation=integrand_rows.rows_do_not_meet,
+        notes="The second row is c_f (ρ/ρ0)^(−d−1): both sides then scale alike with ρ and ρ0.",
+    ),
+    Entry(
+        number="16, an interval",
+        title="d = 1: an interval has |f^(m)|² = sin²(πam)/(πm)² <= 1/(πm)²",
+        source="Section 6, the worst case of the class",
+        status="proved",
+        holds=integrand_rows.interval_decay().claim,
+        proof=integrand_rows.interval_decay,
+        as_printed="power falls off as ρ^(−(d+1))",
+    ),
+    Entry(
+        number="16, along each direction",
+        title="a square falls off as ρ^−2 along its axes, not as ρ^−3",
+        source="Section 6, Eq. 16",
+        status="corrected",
+        holds=integrand_rows.square_along_an_axis().claim,
+        proof=integrand_rows.square_along_an_axis,
+        printed=integrand_rows.SQUARE_ALONG_AN_AXIS,
+        as_printed="along each direction P_f = O(ρ^(−d−1))",
+        refutation=integrand_rows.square_decays_slower,
+        notes="The decay d + 1 is that of the mean over a sphere of directions.",
+    ),
+    _closed("b>q", "b > q"),
+    _closed("b=q", "b = q"),
+    _closed("b<q", "b < q"),
+    Entry(
+        number="17, small N",
+        title="while αN_k <= ρ0: (γ/N) {c [ρ0^s/s − bν^s/(s(s + b))] + c₂ρ0^−q/q}",
+        source="Section 6.1, Eq. 17 with Eqs. 16 and 18",
+        status="proved",
+        holds=axis_terms.before_rho0().claim,
+        proof=axis_terms.before_rho0,
+        notes="The paper's rates begin where ρ0 <= αN_k; before, there is no decay beyond 1/N.",
+    ),
+    Entry(
+        number="18, from below",
+        title="jitter in any dimension is at least Y/(1 + Y), Y = (π²/3)|x|²",
+        source="Section 6.1, Eq. 18, at jitter",
+        status="proved",
+        holds=jitter_bounds.jitter_from_below().claim,
+        proof=jitter_bounds.jitter_from_below,
+        notes="With the bound from above the profile holds on both sides within a factor 2.",
+    ),
+    Entry(
+        number="18, plateau",
+        title="jitter never exceeds its plateau: γ = 1",
+        source="Section 6.1, Eq. 18, at jitter",
+        status="proved",
+        holds=jitter_bounds.jitter_at_most_one().claim,
+        proof=jitter_bounds.jitter_at_most_one,
+    ),
+    Entry(
+        number="18, as an equality",
+        title="jitter is not equal to its monomial",
+        source="Section 6.1, Eq. 18",
+        status="refuted",
+        printed=profile_limits.AS_EQUALITY,
+        as_printed="⟨P_S⟩ = (γ_k/N) (ρ/(α_k N_k))^b_k",
+        refutation=profile_limits.below_its_monomial,
+        notes="A bound, from which only O(·) follows; rates need a bound from below too.",
+    ),
+    Entry(
+        number="18, any spectrum",
+        title="the profile does not bound a regular grid: power 1 at m = N",
+        source="Section 6.1, after Eq. 18",
+        status="corrected",
+        holds=profile_limits.comb().claim,
+        proof=profile_limits.comb,
+        printed=profile_limits.COMB,
+        as_printed="applicable to samples with arbitrary power spectra",
+        refutation=profile_limits.comb_is_not_bounded,
+        notes="γ is free of N; the peaks of grids and lattices are not below any γ/N.",
+    ),
+    Entry(
+        number="6.1, classes from above",
+        title="finitely many classes, each at most C(k) g: the whole is at most (Σ C(k)) g",
+        source="Section 6.1 and Appendix B, what holds",
+        status="proved",
+        holds=classes.from_above().claim,
+        proof=classes.from_above,
+        as_printed="the summand with the worst rate dominates the overall rate",
+        notes="Finitely many classes, with constants free of N; not infinitely many directions.",
+    ),
+    Entry(
+        number="6.1, classes from below",
+        title="one class at least κ g: the whole is at least κ g",
+        source="Section 6.1 and Appendix B, what holds",
+        status="proved",
+        holds=classes.from_below().claim,
+        proof=classes.from_below,
+        as_printed="the rate is decided by the direction with the worst behaviour",
+        notes="A single direction of a continuum has no share in the integral, one of finitely "
+        "many classes has.",
+    ),
+)

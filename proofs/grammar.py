@@ -1,0 +1,69 @@
+"""Grammar of proofs: which expressions there are, and how they are opened and substituted.
+
+Symbols are real and nothing else; what more is known of them stands in hypotheses. Of SymPy is
+trusted that it builds an expression without changing its value where it is defined, and that
+``xreplace``, ``replace``, ``diff``, ``expand``, ``together``, ``reduced`` and ``factorint`` are
+right; of python-flint, its balls.
+"""
+
+import re
+from typing import Any
+
+from ..theory.symbolic import Expr, Symbol, sympy
+
+BINDERS = (sympy.Sum, sympy.Product, sympy.Integral)
+ENTIRE = (sympy.exp, sympy.sin, sympy.cos, sympy.sinc)
+KINKED = (sympy.Min, sympy.Max, sympy.Abs)
+UNDEFINED_FUNCTION: Any = sympy.core.function.AppliedUndef
+
+
+_NAME = re.compile(r"[^\W\d]\w*'*")  # no bracket: names of generators have some
+
+
+class Refused(ValueError):
+    """A step that the kernel cannot check."""
+
+
+def require(condition: bool, what: str, *terms: Any) -> None:
+    """Refuse the step unless the condition holds."""
+    if not condition:
+        raise Refused(": ".join(map(str, (what, *terms))))
+
+
+def opened(e: Expr) -> tuple[Expr, Symbol, Expr, Expr]:
+    """The term under the outermost range of a sum, product or integral, and that range."""
+    *inner, outer = e.limits
+    require(len(outer) == 3, "no range", e)
+    return (e.func(e.function, *inner) if inner else e.function, *outer)
+
+
+def bound(e: Expr) -> set[Symbol]:
+    """Symbols bound by sums, products and integrals."""
+    return {range_[0] for b in e.atoms(*BINDERS) for range_ in b.limits}
+
+
+def well_formed(e: Expr) -> bool:
+    """Whether the expression is in the grammar: real symbols, one range per binder."""
+    if e.is_Symbol:
+        return e == sympy.Symbol(e.name, real=True) and bool(_NAME.fullmatch(e.name))
+    if e.is_Atom:
+        return bool(e.is_Rational) or e in (sympy.pi, sympy.E)
+    if isinstance(e, BINDERS):
+        f, x, a, b = opened(e)
+        ends = all(u in (sympy.oo, -sympy.oo) or well_formed(u) for u in (a, b))
+        free = not (a.free_symbols | b.free_symbols | bound(f)) & {x}
+        return ends and free and well_formed(f)
+    known = (*ENTIRE, *KINKED, sympy.log, sympy.gamma, sympy.besselj, sympy.Add, sympy.Mul)
+    is_known = isinstance(e, (*known, sympy.Pow, UNDEFINED_FUNCTION))
+    named = not isinstance(e, UNDEFINED_FUNCTION) or _NAME.fullmatch(str(e.func))
+    return is_known and bool(named) and all(well_formed(a) for a in e.args)
+
+
+def substituted(e: Expr, values: tuple[tuple[Any, Expr], ...]) -> Expr:
+    """Symbols and undefined functions replaced by terms (functions by Lambdas), all at once."""
+    caught = bound(e)
+    for key, value in values:
+        require(not caught & ({key} | value.free_symbols), "meets a bound symbol", key)
+        if not getattr(key, "is_Symbol", False):
+            e = e.replace(key, value)
+    return e.xreplace({k: v for k, v in values if getattr(k, "is_Symbol", False)})

@@ -1,0 +1,44 @@
+"""Orders of sums of regions and classes: smaller orders are refused, and so are false mutants.
+
+Power: the tally of refuted mutants is asserted, so that a harness that finds none fails.
+"""
+
+import pytest
+from specrate.proofs import point_rates, two_classes
+from specrate.proofs.claims import Claim
+from specrate.proofs.grammar import Refused
+from specrate.proofs.kernel import Step, check
+from specrate.proofs.mutations import mutants, steps_of
+from specrate.proofs.tactics import ONE
+from specrate.proofs.trials import refuted
+
+
+@pytest.mark.parametrize(("is_worst", "every"), [(True, 151), (False, 171)])
+def test_no_refuted_mutant_is_accepted(is_worst: bool, every: int) -> None:
+    proof = point_rates.eq_24 if is_worst else point_rates.eq_25
+    found = [m for step in steps_of(proof(is_worst))[:12] for m in mutants(step)][::every]
+    false = [m for m in found if refuted(m.step.claim, trials=3)]
+    for mutant in false:
+        with pytest.raises(Refused):
+            check(mutant.step)
+    assert len(false) >= 5
+
+
+@pytest.mark.parametrize("is_worst", [True, False])
+def test_a_sum_of_regions_has_no_smaller_order(is_worst: bool) -> None:
+    """Eqs. 24-26 as the orders of their fast parts alone are refused."""
+    for proof in (point_rates.eq_24, point_rates.eq_25, point_rates.eq_26):
+        found = proof(is_worst)
+        c = found.claim
+        faster = Claim(c.left, "Theta", point_rates.N ** (-2 * ONE), c.given, c.along)
+        with pytest.raises(Refused):
+            check(Step(faster, found.reason, found.uses))
+
+
+def test_the_faster_class_does_not_decide() -> None:
+    """V_1 + V_2 as the order of V_2, r_1 < r_2, is refused."""
+    found = two_classes.order("b<q", "b<q")
+    c, power = found.claim, -1 - two_classes.rate(2, "b<q")
+    faster = Claim(c.left, "Theta", point_rates.N**power, c.given, c.along)
+    with pytest.raises(Refused):
+        check(Step(faster, found.reason, found.uses))
