@@ -31,14 +31,8 @@ from .hypotheses import applicable, facts_under, holds, said, same, states
 from .normal_forms import zero
 
 _SEAL = object()
-_FAILURES = (
-    ArithmeticError,
-    LookupError,
-    RecursionError,
-    TypeError,
-    ValueError,
-    sympy.PolynomialError,
-)
+_ERRORS = (ArithmeticError, LookupError, RuntimeError, TypeError, ValueError)
+_FAILURES = (*_ERRORS, sympy.PolynomialError)
 _CHECKED: "WeakKeyDictionary[Step, Theorem]" = WeakKeyDictionary()
 
 
