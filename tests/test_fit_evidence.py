@@ -5,10 +5,12 @@ import json
 import pytest
 from specrate.numerics.checking.check_documents import check, document
 from specrate.numerics.checking.checks import Execution, Step, run_check
-from specrate.numerics.checking.fit_evidence import class_order, with_profiles
+from specrate.numerics.checking.fit_evidence import with_profiles
 from specrate.numerics.checking.fitted_profiles import FittedRegion
 from specrate.numerics.fitting.profile_fits import ProfileFit
 from specrate.numerics.measuring.moments import Interval
+from specrate.theory.decays import parse_decay
+from specrate.theory.rates import order_on
 from specrate.theory.samplers import parse_sampler
 
 PARAMETERS = {"degree", "effective", "gamma", "alpha"}
@@ -136,9 +138,10 @@ def test_what_is_not_determined_is_null_with_its_reason():
 
 
 def test_orders_of_classes():
-    order = class_order(parse_sampler("multi-jitter", 2), "best", None)
+    sampler, best = parse_sampler("multi-jitter", 2), parse_decay("best")
+    order = order_on(sampler, best)
     assert str(order.exponent) == "2"
-    assert str(class_order(parse_sampler("multi-jitter", 2), "best", (1,)).exponent) == "3"
+    assert str(order_on(sampler, best, (1,)).exponent) == "3"
 
 
 def test_fits_are_part_of_the_plan_and_replay(tmp_path):

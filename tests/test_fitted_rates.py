@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specrate.numerics.checking.fit_evidence import class_order
 from specrate.numerics.checking.fitted_profiles import FittedRegion
 from specrate.numerics.checking.fitted_rates import CLASSES, fitted_rate, region_exponent
 from specrate.numerics.fitting.profile_fits import EstimatedSpectrum, ProfileFit
 from specrate.numerics.measuring.moments import Interval
+from specrate.theory.decays import parse_decay
+from specrate.theory.rates import order_on
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.symbolic import Integer, sympy
 
@@ -40,7 +41,7 @@ def rooks():
 @pytest.mark.parametrize("support", [(1,), (2,), (1, 2), None])
 def test_true_profiles_give_the_true_exponents(name, regions, family, support):
     found = fitted_rate(regions, 2, family, support).exponent
-    true = float(class_order(parse_sampler(name, 2), family, support).exponent)
+    true = float(order_on(parse_sampler(name, 2), parse_decay(family), support).exponent)
     assert found.low <= true + 1e-12
     assert found == pytest.approx((true, true, true))
 

@@ -21,7 +21,7 @@ from .plateaus import plateau
 from .primitives import Primitive, shells
 from .profiles import SaturatingMonomial, newton_polygon
 from .radial import Leading, Radial, leading
-from .regions import Region, regions
+from .regions import Region, region_of_support, regions, select
 from .samplers.definition import Sampler
 from .signs import Assumptions, nonnegative
 from .symbolic import Expr, Integer, sympy
@@ -90,16 +90,42 @@ def region_rates(
     UndecidedSign
         If the monomials of a region cannot be ordered.
     """
-    return tuple(_rate(sampler, decay, primitive, r) for r in regions(sampler.layout))
+    return tuple(region_rate(sampler, decay, r, primitive) for r in regions(sampler.layout))
 
 
-def _rate(sampler: Sampler, decay: Decay, primitive: Primitive, region: Region) -> RegionRate:
+def region_rate(
+    sampler: Sampler, decay: Decay, region: Region, primitive: Primitive = POINT
+) -> RegionRate:
+    """The rate on one region of a sampler for a class of integrands.
+
+    Raises
+    ------
+    UndecidedSign
+        If the monomials of the region cannot be ordered.
+    """
     q = shells(primitive, decay, sampler.layout, region)
     if q is None:
         return RegionRate(region, (), None, None)
     profile = profile_of(sampler, region, decay)
     orders = [m.order_at(q, region.assumptions, decay.is_product) for m in profile]
     return RegionRate(region, profile, q, slowest(orders, region.assumptions))
+
+
+def order_on(
+    sampler: Sampler, decay: Decay, support: tuple[int, ...] | None = None
+) -> Order | None:
+    """The order of a class under a sampler of a known dimension, on one support or overall.
+
+    Returns
+    -------
+    Order or None
+        None if the class has no power there.
+    """
+    layout = sampler.layout
+    chosen = select(layout, "overall") if support is None else (region_of_support(layout, support),)
+    found = (region_rate(sampler, decay, region).order for region in chosen)
+    orders = [order for order in found if order is not None]
+    return slowest(orders) if orders else None
 
 
 def overall(rates: tuple[RegionRate, ...], assumptions: Assumptions) -> tuple[Case, ...]:

@@ -5,12 +5,10 @@ from math import inf, isfinite, log
 from typing import Any
 
 from ...theory.claims import RateClaim, SamplerClaim
-from ...theory.decays import parse_decay, shell_exponent
-from ...theory.dominance import slowest
+from ...theory.decays import parse_decay
 from ...theory.errors import InputError
 from ...theory.orders import Order
-from ...theory.rates import profile_of
-from ...theory.regions import region_of_support, select
+from ...theory.rates import order_on
 from ...theory.samplers import Sampler
 from ..exact_variances.variances import ExactVariance
 from ..integrands.protocol import Integrand
@@ -143,21 +141,10 @@ def _rate(
 def predicted_order(sampler: Sampler, integrand: Integrand) -> Order | None:
     """The order that theory gives an integrand under a catalogue sampler; None if it has none."""
     try:
-        decay, layout = parse_decay(integrand.name), sampler.layout
+        decay = parse_decay(integrand.name)
     except InputError:
         return None
-    if integrand.support:
-        supports = [region_of_support(layout, integrand.support)]
-    else:
-        supports = list(select(layout, "overall"))
-    orders: list[Order] = []
-    for region in supports:
-        q = shell_exponent(decay, layout, region)
-        if q is not None:
-            orders += [
-                m.order_at(q, (), decay.is_product) for m in profile_of(sampler, region, decay)
-            ]
-    return slowest(orders)
+    return order_on(sampler, decay, integrand.support or None)
 
 
 def _point(m: Measurement, integrand: Integrand, exact: ExactVariance | None) -> Document:

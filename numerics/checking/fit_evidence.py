@@ -3,12 +3,8 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...theory.decays import parse_decay, shell_exponent
-from ...theory.dominance import slowest
-from ...theory.orders import Order
-from ...theory.rates import profile_of
-from ...theory.regions import region_of_support, select
-from ...theory.samplers import Sampler
+from ...theory.decays import parse_decay
+from ...theory.rates import order_on
 from ..integrands.protocol import Integrand
 from ..measuring.moments import Interval
 from ..measuring.probes import Support
@@ -84,7 +80,7 @@ def _class_rows(state: State) -> Iterator[Document]:
     claimed = state.design.claimed_samplers[0] if state.design.claimed_samplers else None
     for name in CLASSES:
         for support in (*(f.support for f in state.fitted), None):
-            order = None if claimed is None else class_order(claimed, name, support)
+            order = None if claimed is None else order_on(claimed, parse_decay(name), support)
             yield {
                 "integrand": name,
                 "region": "overall" if support is None else _named(support),
@@ -96,20 +92,6 @@ def _class_rows(state: State) -> Iterator[Document]:
                 "fitted": _row(fitted_rate(state.fitted, state.design.dim, name, support)),
                 "agrees": None,
             }
-
-
-def class_order(sampler: Sampler, name: str, support: Support | None) -> Order:
-    """The order that theory gives a class under a catalogue sampler, on one support or overall."""
-    decay, layout = parse_decay(name), sampler.layout
-    chosen = select(layout, "overall") if support is None else (region_of_support(layout, support),)
-    orders: list[Order] = []
-    for region in chosen:
-        q = shell_exponent(decay, layout, region)
-        if q is not None:
-            orders += [
-                m.order_at(q, (), decay.is_product) for m in profile_of(sampler, region, decay)
-            ]
-    return slowest(orders)
 
 
 def _named(support: Support) -> str:

@@ -13,11 +13,11 @@ from math import log
 import numpy as np
 
 from ...theory.claims import RateClaim, SamplerClaim, parse_claim
-from ...theory.decays import Decay, shell_exponent
+from ...theory.decays import Decay
 from ...theory.dominance import dominates
 from ...theory.errors import InputError
 from ...theory.orders import Order
-from ...theory.rates import profile_of
+from ...theory.rates import region_rate
 from ...theory.regions import Region, select
 from ...theory.samplers import Sampler, parse_sampler
 from ...theory.spelling import order_text
@@ -150,11 +150,9 @@ def _derived(sampler: Sampler, claim: RateClaim) -> tuple[Region, Order] | None:
     """The slowest region among those claimed, with its order; None if there is no power."""
     slow: tuple[Region, Order] | None = None
     for region in select(sampler.layout, claim.region):
-        q = shell_exponent(claim.decay, sampler.layout, region)
-        for monomial in profile_of(sampler, region, claim.decay) if q is not None else ():
-            order = monomial.order_at(q, region.assumptions, claim.decay.is_product)
-            if slow is None or not dominates(slow[1], order):
-                slow = region, order
+        order = region_rate(sampler, claim.decay, region).order
+        if order is not None and (slow is None or not dominates(slow[1], order)):
+            slow = region, order
     return slow
 
 
