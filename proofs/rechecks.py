@@ -1,13 +1,11 @@
 """Re-checks: entries of the ledger run through the kernel, one by one, in the ledger's order."""
 
-import multiprocessing
 import re
-import signal
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass
 
+from ..numerics.interruptible_pools import results
 from ..theory.errors import InputError
 from . import ledger
 from .claims import Axiom, Claim
@@ -173,31 +171,8 @@ def _here(places: Sequence[int], _: int) -> Iterator[tuple[int, Recheck]]:
 
 def _in_processes(places: Sequence[int], jobs: int) -> Iterator[tuple[int, Recheck]]:
     """Re-checks as they end; at an interrupt those under way end too, and no others begin."""
-    context = multiprocessing.get_context("spawn")  # a fork would share the threads of libraries
-    jobs = min(jobs, len(places))
-    with ProcessPoolExecutor(jobs, context, _leave_interrupts_to_the_parent) as pool:
-        waiting, running, is_stopped = iter(places), dict[Future[_Outcome], int](), False
-        while True:
-            try:
-                while not is_stopped and len(running) < 2 * jobs:
-                    if (place := next(waiting, None)) is None:
-                        break
-                    running[pool.submit(_outcome, place)] = place
-                if not running:
-                    break
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    place = running.pop(future)
-                    yield place, Recheck(ledger.ENTRIES[place], *future.result())
-            except KeyboardInterrupt:
-                is_stopped = True
-                for future in [f for f in running if f.cancel()]:
-                    del running[future]
-        if is_stopped:
-            raise KeyboardInterrupt
-
-
-def _leave_interrupts_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for place, outcome in results(_outcome, places, min(jobs, len(places))):
+        yield place, Recheck(ledger.ENTRIES[place], *outcome)
 
 
 def run(place: int) -> Recheck:

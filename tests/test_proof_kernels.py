@@ -1,7 +1,6 @@
 """Proved kernels against the catalogue's spectra, rules against point sets, and their mutants."""
 
 import itertools
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.numerics.integrands.protocol import mp
 from specrate.proofs import multi_jitter_spectra as multi_jitter
@@ -20,8 +20,7 @@ from specrate.proofs.entries import kernels
 from specrate.proofs.entries import rules as rule_entries
 from specrate.proofs.entry import Entry, recheck
 from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import mutants, steps_of
+from specrate.proofs.kernel import Step
 from specrate.proofs.trials import Point, refuted, value
 from specrate.theory.samplers import parse_sampler
 
@@ -138,7 +137,7 @@ def test_trials_of_a_kernel_have_points(entry: Entry) -> None:
         recheck(replace(entry, holds=wrong))
 
 
-CASES: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
+CASES: Cases = (
     ("strata", strata.substrata, 29, 14),
     ("jitter", stratified.jitter_at_whole_frequencies, 97, 4),
     ("hypercube", stratified.latin_hypercube, 97, 5),
@@ -152,13 +151,4 @@ CASES: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
 def test_no_refuted_mutant_is_accepted(
     name: str, proof: Callable[[], Step], every: int, least: int
 ) -> None:
-    found = [m for step in steps_of(proof()) for m in mutants(step)][::every]
-    tally: Counter[str] = Counter()
-    for mutant in found:
-        if not refuted(mutant.step.claim, trials=2):
-            tally["not refuted"] += 1
-            continue
-        with pytest.raises(Refused):
-            check(mutant.step)
-        tally["rejected"] += 1
-    assert tally["rejected"] >= least, (name, tally, len(found))
+    assert_refuted_mutants_are_rejected(name, proof, every, least, trials=2)

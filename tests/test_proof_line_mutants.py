@@ -4,12 +4,12 @@ The kernel rejects every mutant that a trial, without the kernel, refutes. Power
 refuted mutants is asserted, so that a harness that finds none fails.
 """
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 import sympy
+from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.proofs import (
     appendix_spectra,
     best_case,
@@ -25,15 +25,13 @@ from specrate.proofs.entries import appendix_a, appendix_b, lines
 from specrate.proofs.entry import Entry, recheck
 from specrate.proofs.grammar import Refused
 from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import mutants, steps_of
 from specrate.proofs.tactics import ONE
-from specrate.proofs.trials import refuted
 
 _ENTRIES: tuple[Entry, ...] = (
     *lines.ENTRIES, *lines.BEYOND, *appendix_a.ENTRIES, *appendix_b.ENTRIES,
 )  # fmt: skip
 
-CASES: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
+CASES: Cases = (
     ("segments", segments.segment_of_a_wave, 3, 10),
     ("sphere mean", segments.sphere_mean, 61, 5),
     ("weights", directions.inverse_variance, 1, 20),
@@ -61,15 +59,7 @@ def _accepted(step: Step) -> bool:
 def test_no_refuted_mutant_is_accepted(
     name: str, proof: Callable[[], Step], every: int, least: int
 ) -> None:
-    found = [m for step in steps_of(proof()) for m in mutants(step)][::every]
-    tally: Counter[str] = Counter()
-    for mutant in found:
-        if not refuted(mutant.step.claim, trials=4):
-            tally["not refuted"] += 1
-            continue
-        assert not _accepted(mutant.step), (name, mutant.change, str(mutant.step.claim))
-        tally["rejected"] += 1
-    assert tally["rejected"] >= least, tally
+    assert_refuted_mutants_are_rejected(name, proof, every, least, trials=4)
 
 
 @pytest.mark.parametrize("entry", [e for e in _ENTRIES if e.refutation], ids=lambda e: e.number)

@@ -1,6 +1,5 @@
 """Sections 3 to 5 of the ledger: attacks on what is proved, shifted point sets, and mutants."""
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -8,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.numerics.integrands.protocol import mp
 from specrate.proofs import (
     constant_integrand,
@@ -22,8 +22,7 @@ from specrate.proofs import (
 from specrate.proofs.entries import section3, section4, section5
 from specrate.proofs.entry import Entry, recheck
 from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import mutants, steps_of
+from specrate.proofs.kernel import Step
 from specrate.proofs.trials import Point, refuted, value
 
 ENTRIES = (*section3.ENTRIES, *section4.ENTRIES, *section5.ENTRIES)
@@ -101,7 +100,7 @@ def test_a_shift_costs_x_its_rate(n: int, seed: int) -> None:
     assert np.isclose(errors.var(), exact, rtol=0.2)
 
 
-CASES: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
+CASES: Cases = (
     ("parseval", shifts.parseval, 127, 12),
     ("variance", variance.variance, 499, 5),
     ("unbiased", variance.unbiased, 307, 3),
@@ -121,13 +120,4 @@ CASES: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
 def test_no_refuted_mutant_is_accepted(
     name: str, proof: Callable[[], Step], every: int, least: int
 ) -> None:
-    found = [m for step in steps_of(proof()) for m in mutants(step)][::every]
-    tally: Counter[str] = Counter()
-    for mutant in found:
-        if not refuted(mutant.step.claim, trials=2):
-            tally["not refuted"] += 1
-            continue
-        with pytest.raises(Refused):
-            check(mutant.step)
-        tally["rejected"] += 1
-    assert tally["rejected"] >= least, (name, tally, len(found))
+    assert_refuted_mutants_are_rejected(name, proof, every, least, trials=2)

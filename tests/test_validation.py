@@ -36,7 +36,7 @@ def ran(monkeypatch):
     tasks = []
 
     def instead(answers=None, last=None):
-        def results(wanted, jobs):
+        def results(run, wanted, jobs):
             for task in wanted:
                 if last is not None and len(tasks) == last:
                     raise KeyboardInterrupt
@@ -148,7 +148,7 @@ def test_processes_run_what_a_process_runs():
     """Files of one set are judged in milliseconds; interrupts are left to the parent."""
     truth = next(t for t in FAILING if t.name == "jitter, files of one set")
     task = Task(title(truth), 5.0, 0)
-    ((told, ended),) = validation.results([task], 1)
+    ((told, ended),) = validation.results(validation.run, [task], 1)
     here = run(task)
     assert told == task
     assert (ended.verdict, ended.reasons) == (here.verdict, here.reasons)

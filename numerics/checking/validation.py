@@ -13,21 +13,19 @@ loses nothing.
 import argparse
 import hashlib
 import json
-import multiprocessing
 import os
-import signal
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from statistics import median
 from time import monotonic
 
-from ..fitting.fit_coverage import interval_of_share
+from ..interruptible_pools import results
+from ..measuring.moments import interval_of_share
 from .check_documents import check
 from .known_truths import TRUTHS, KnownTruth, is_wrong, reasons_of
 
@@ -116,33 +114,6 @@ def append(path: Path | None, task: Task, ended: Ended) -> None:
             if file.read(1) != b"\n":
                 file.write(b"\n")
         file.write((json.dumps(row, ensure_ascii=False) + "\n").encode())
-
-
-def results(tasks: Iterable[Task], jobs: int) -> Iterator[tuple[Task, Ended]]:
-    """Checks as they end; at an interrupt those under way end too, and no others begin."""
-    context = multiprocessing.get_context("spawn")  # a fork would share the threads of libraries
-    with ProcessPoolExecutor(jobs, context, _leave_interrupts_to_the_parent) as pool:
-        waiting, running, is_stopped = iter(tasks), dict[Future[Ended], Task](), False
-        while True:
-            try:
-                while not is_stopped and len(running) < 2 * jobs:
-                    if (task := next(waiting, None)) is None:
-                        break
-                    running[pool.submit(run, task)] = task
-                if not running:
-                    break
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    yield running.pop(future), future.result()
-            except KeyboardInterrupt:
-                is_stopped = True
-                for future in [f for f in running if f.cancel()]:
-                    del running[future]
-        if is_stopped:
-            raise KeyboardInterrupt
-
-
-def _leave_interrupts_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def table(truths: Sequence[KnownTruth], found: Results, budget: float) -> Iterator[str]:
@@ -241,7 +212,7 @@ def _run_all(tasks: Sequence[Task], found: Results, path: Path | None, jobs: int
     """Run and record the tasks; False if interrupted."""
     began = monotonic()
     try:
-        for done, (task, ended) in enumerate(results(tasks, jobs), 1):
+        for done, (task, ended) in enumerate(results(run, tasks, jobs), 1):
             append(path, task, ended)
             found[task] = ended
             left = (monotonic() - began) / done * (len(tasks) - done)

@@ -22,7 +22,7 @@ from zlib import crc32
 import numpy as np
 
 from ..integrands.protocol import Floats, Ints
-from ..measuring.moments import Interval, special
+from ..measuring.moments import Interval, interval_of_share
 from ..measuring.probes import amplitudes
 from ..streams import stream
 from .coverage_truths import TRUTHS, Truth, generic
@@ -122,14 +122,6 @@ def rng_of(truth: Truth, budget: Budget, seed: int, index: int) -> np.random.Gen
     """Random numbers of one run, independent of all others."""
     key = (crc32(truth.name.encode()), budget.realisations, int(budget.measured), index)
     return stream(seed, *key)
-
-
-def interval_of_share(hits: int, runs: int, level: float = 0.05) -> tuple[float, float]:
-    """Clopper-Pearson interval of a probability."""
-    inverse = special().betaincinv
-    low = float(inverse(hits, runs - hits + 1, level / 2)) if hits else 0.0
-    high = float(inverse(hits + 1, runs - hits, 1 - level / 2)) if hits < runs else 1.0
-    return low, high
 
 
 def row(truth: str, budget: Budget, outcomes: Sequence[Outcome]) -> str:

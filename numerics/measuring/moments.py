@@ -219,3 +219,11 @@ def special() -> Any:
     from scipy import special as functions  # pyright: ignore[reportMissingTypeStubs]
 
     return functions
+
+
+def interval_of_share(hits: int, runs: int, level: float = 0.05) -> tuple[float, float]:
+    """Clopper-Pearson interval of a probability."""
+    inverse = special().betaincinv
+    low = float(inverse(hits, runs - hits + 1, level / 2)) if hits else 0.0
+    high = float(inverse(hits + 1, runs - hits, 1 - level / 2)) if hits < runs else 1.0
+    return low, high

@@ -1,0 +1,32 @@
+"""Mutants of a proof against the kernel: each that a trial refutes must be refused."""
+
+from collections import Counter
+from collections.abc import Callable
+
+import pytest
+from specrate.proofs.grammar import Refused
+from specrate.proofs.kernel import Step, check
+from specrate.proofs.mutations import mutants, steps_of
+from specrate.proofs.trials import refuted
+
+Cases = tuple[tuple[str, Callable[[], Step], int, int], ...]
+"""Name, proof, one in how many of its mutants is tried, and how many rejections there must be."""
+
+
+def assert_refuted_mutants_are_rejected(
+    name: str, proof: Callable[[], Step], every: int, least: int, trials: int
+) -> None:
+    """Fail if the kernel takes a mutant that a trial refutes, or too few are refuted."""
+    found = [m for step in steps_of(proof()) for m in mutants(step)][::every]
+    tally: Counter[str] = Counter()
+    for mutant in found:
+        if not refuted(mutant.step.claim, trials=trials):
+            tally["not refuted"] += 1
+            continue
+        try:
+            check(mutant.step)
+        except Refused:
+            tally["rejected"] += 1
+        else:
+            pytest.fail(f"{name}: accepted {mutant.change}, {mutant.step.claim}")
+    assert tally["rejected"] >= least, (name, tally, len(found))
