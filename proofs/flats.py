@@ -72,10 +72,7 @@ def numbers(
     in_radial = {s: dimension, e: ONE / dimension, b: degree, q: decay}
     named = {x.name: x for x in (d, k)}
     here = {b: degree, **{named[name]: v for name, v in others.items()}}
-    return tuple(
-        tuple((x, sympy.S(v)) for x, v in {**readings.PLAIN, **chosen}.items())
-        for chosen in (in_radial, here)
-    )  # type: ignore[return-value]
+    return readings.among_plain(in_radial), readings.among_plain(here)
 
 
 @cache

@@ -23,6 +23,11 @@ def numbers(**degrees: int | Expr) -> Values:
     """b and q as given, all other parameters 1."""
     named = {x.name: x for x in (b, q)}
     chosen = {named[name]: value for name, value in degrees.items()}
+    return among_plain(chosen)
+
+
+def among_plain(chosen: Mapping[Symbol, Expr | int]) -> Values:
+    """Parameters of V as chosen, all others 1."""
     return tuple((k, sympy.S(v)) for k, v in {**PLAIN, **chosen}.items())
 
 

@@ -50,11 +50,8 @@ def coincidences(points: Reals, strata: Sequence[int]) -> tuple[list[Fault], int
     twins = _twins(points, _set_keys(points))
     # Twins share all their values: they would count as quantised for the wrong reason.
     singles = np.delete(points, list(twins), axis=0) if twins else points
-    found = [_duplicates(twins, len(points)), _piles(points)]
-    quantised = _quantised(singles, strata)
-    known = {axis for fault in quantised for axis in fault.evidence["axes"]}
-    found.append(_repeated(singles, [a for a in range(1, points.shape[2] + 1) if a not in known]))
-    return [fault for fault in found if fault is not None] + quantised, len(singles)
+    found = [_duplicates(twins, len(points)), _piles(points), *_values_of_axes(singles, strata)]
+    return [fault for fault in found if fault is not None], len(singles)
 
 
 def _chunks(points: Reals) -> Iterator[slice]:
@@ -185,31 +182,6 @@ def _pile(points: Reals, digits: int, shared: NDArray[np.int64]) -> Fault:
     )
 
 
-def _repeated(points: Reals, axes: Sequence[int]) -> Fault | None:
-    """The value that most realisations share on an axis, if eight or more do.
-
-    Of values on the coarsest grain that is not taken for a lattice, 2^-30, and R N <= 2^21 of them,
-    any eight agree with a probability below 2^(21 · 8 − 30 · 7) / 8! < 1e-17.
-    """
-    shared: dict[int, tuple[float, int]] = {}
-    for axis in axes:
-        values = np.sort(points[: max(4, _POOLED_DRAWS // points.shape[1]), :, axis - 1], axis=1)
-        first = np.ones(values.shape, bool)
-        first[:, 1:] = values[:, 1:] != values[:, :-1]
-        places, counts = np.unique(values[first], return_counts=True)
-        if int(counts.max()) >= _SHARED:
-            shared[axis] = float(places[np.argmax(counts)]), int(counts.max())
-    if not shared:
-        return None
-    axis, (value, count) = max(shared.items(), key=lambda found: found[1][1])
-    return Fault(
-        "repeated values",
-        f"realisations must not share values: got {value:.9g} on axis {axis} in {count} of "
-        f"{len(points)} realisations",
-        {"axes": sorted(shared), "value": value, "realisations": count},
-    )
-
-
 @dataclass(frozen=True)
 class _Lattice:
     """The few values that an axis takes."""
@@ -221,16 +193,45 @@ class _Lattice:
     strata: int | None = None
 
 
-def _quantised(points: Reals, strata: Sequence[int]) -> list[Fault]:
-    """Faults of axes that take the values of a lattice; axes that take alike values share one."""
+def _values_of_axes(points: Reals, strata: Sequence[int]) -> list[Fault]:
+    """Faults of the values that each axis takes; axes that take alike values share one."""
     axes: dict[str, list[int]] = {}
     lattices: dict[str, _Lattice] = {}
-    for axis in range(points.shape[2]):
-        found = _lattice_of(points[:, :, axis], strata)
-        if found is not None:
-            lattices.setdefault(found.detail, found)
-            axes.setdefault(found.detail, []).append(axis + 1)
-    return [_of_lattice(axes[detail], found) for detail, found in lattices.items()]
+    shared: dict[int, tuple[float, int]] = {}
+    for axis in range(1, points.shape[2] + 1):
+        # About two million draws are enough to tell.
+        own = np.sort(points[: max(4, _POOLED_DRAWS // points.shape[1]), :, axis - 1], axis=1)
+        is_first = np.ones(own.shape, bool)
+        is_first[:, 1:] = own[:, 1:] != own[:, :-1]
+        lattice = _lattice_of(own[is_first], strata) if own.size >= 8 else None
+        if lattice is not None:
+            lattices.setdefault(lattice.detail, lattice)
+            axes.setdefault(lattice.detail, []).append(axis)
+        elif (repeated := _repeated_value(own[is_first])) is not None:
+            shared[axis] = repeated
+    quantised = [_of_lattice(axes[detail], found) for detail, found in lattices.items()]
+    return [*([_repeated(shared, len(points))] if shared else []), *quantised]
+
+
+def _repeated_value(values: Reals) -> tuple[float, int] | None:
+    """The value that most realisations share, and how many do, if they are eight or more.
+
+    Of values on the coarsest grain that is not taken for a lattice, 2^-30, and R N <= 2^21 of them,
+    any eight agree with a probability below 2^(21 · 8 − 30 · 7) / 8! < 1e-17.
+    """
+    places, counts = np.unique(values, return_counts=True)
+    count = int(counts.max(initial=0))
+    return (float(places[np.argmax(counts)]), count) if count >= _SHARED else None
+
+
+def _repeated(shared: dict[int, tuple[float, int]], realisations: int) -> Fault:
+    axis, (value, count) = max(shared.items(), key=lambda found: found[1][1])
+    return Fault(
+        "repeated values",
+        f"realisations must not share values: got {value:.9g} on axis {axis} in {count} of "
+        f"{realisations} realisations",
+        {"axes": sorted(shared), "value": value, "realisations": count},
+    )
 
 
 def _of_lattice(axes: list[int], found: _Lattice) -> Fault:
@@ -247,16 +248,11 @@ def _of_lattice(axes: list[int], found: _Lattice) -> Fault:
 
 
 def _lattice_of(values: Reals, strata: Sequence[int]) -> _Lattice | None:
-    """Values of one axis, shape (R, N), that realisations share or that lie on a lattice.
+    """Values of one axis, once for each realisation, that realisations share or of a lattice.
 
     Within a realisation values may repeat (a shifted grid does it); between realisations not.
-    About two million draws are enough to tell.
     """
-    if values.size < 8:
-        return None
-    within = np.sort(values[: max(4, _POOLED_DRAWS // values.shape[1])], axis=1)
-    own = within.size - int(np.count_nonzero(within[:, 1:] == within[:, :-1]))
-    pooled = np.unique(within)
+    own, pooled = values.size, np.unique(values)
     if (fixed := _fixed_places(pooled, strata)) is not None:
         cells, offset = fixed
         detail = f"the {'centres' if offset else 'corners'} of {cells} strata"
