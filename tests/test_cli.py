@@ -268,10 +268,16 @@ def test_seeds_are_reproducible_and_matter(capsys: pytest.CaptureFixture[str]) -
 # Interrupts and pipes
 
 
+def hears_interrupts() -> None:
+    """In a child: a shell starts what runs in its background deaf to them."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def test_interrupt_prints_what_was_found() -> None:
     sampler = "uncorrelated-jitter:1+2"
     options = ("--budget", "10000", "--n", "15625", "--format", "json")
-    process = launch("check", sampler, "--dim", "3", "--claim", sampler, *options)
+    command = ("check", sampler, "--dim", "3", "--claim", sampler, *options)
+    process = launch(*command, preexec_fn=hears_interrupts)
     time.sleep(5)
     assert process.poll() is None, "the check ended before it could be interrupted"
     process.send_signal(signal.SIGINT)
@@ -282,7 +288,8 @@ def test_interrupt_prints_what_was_found() -> None:
 
 
 def test_interrupt_of_an_integral_in_compiled_code() -> None:
-    process = launch("variance", "box-dpp", "ball:radius=1/4", "--dim", "1", "--n", "1e300")
+    command = ("variance", "box-dpp", "ball:radius=1/4", "--dim", "1", "--n", "1e300")
+    process = launch(*command, preexec_fn=hears_interrupts)
     time.sleep(5)
     assert process.poll() is None, "the variance was there before it could be interrupted"
     process.send_signal(signal.SIGINT)
