@@ -55,8 +55,8 @@ Anisotropic Monte Carlo Sampling Spectra} (technical report TR2016-816), is stat
 printed and as it holds, with a proof that a small program has checked step by step: it accepts a
 step only if the reason given for it is one of a closed list of rules, and can be carried out.
 A step is told under the hypotheses of its statement; where it needs others they are named before
-it; what an earlier entry has shown is not shown again. Steps in small print only read something
-off. Numbers in brackets are steps of the same proof;
+it; what an earlier entry has shown is not shown again, and its numbers are left out. Steps in
+small print only read something off. Numbers in brackets are steps of the same proof;
 $(3) - (2)$ is the difference of two equations, or of what lies between their sides.
 """
 

@@ -82,9 +82,9 @@ def _header(found: Rechecks) -> Html:
         element(
             "p",
             "A step is told under the hypotheses of its statement; where it needs others, they "
-            "stand before it. What an earlier entry has shown is not shown again. Numbers in "
-            "brackets are steps: (3) − (2) is the difference of two equations, or of what lies "
-            "between their sides.",
+            "stand before it. What an earlier entry has shown is not shown again, and its numbers "
+            "are left out. Numbers in brackets are steps: (3) − (2) is the difference "
+            "of two equations, or of what lies between their sides.",
             class_="note",
         ),
     )
