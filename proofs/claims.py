@@ -6,10 +6,10 @@ N is the limit as N grows over the values that the hypotheses allow; O and Theta
 """
 
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from ..theory.symbolic import Expr, Symbol, sympy
-from .grammar import require, substituted
+from .grammar import require, substituted, well_formed
 
 Relation = Literal["=", "<=", "<", "!=", "whole", "->", "O", "Theta"]
 ASYMPTOTIC: tuple[Relation, ...] = ("->", "O", "Theta")
@@ -67,9 +67,20 @@ class Claim:
         pairs = tuple((k, v) for k, v in values if k not in self.over)
         caught = {s for _, v in pairs for s in v.free_symbols} & {*self.over, self.along}
         require(not caught, "would be caught", caught)
+        require(self.along not in [k for k, _ in pairs], "grows", self.along)
         sides = substituted(self.left, pairs), substituted(self.right, pairs)
         given = tuple(h.at(*pairs) for h in self.given)
         return replace(self, left=sides[0], right=sides[1], given=given)
+
+
+def require_grammar(c: Claim) -> None:
+    """Require that the terms of a claim and of its hypotheses, none denied, are in the grammar."""
+    infinite = c.right == sympy.oo and c.relation == "->"
+    require(well_formed(c.left) and (infinite or well_formed(c.right)), "no term", c)
+    require(c.relation in get_args(Relation), "no relation", c.relation)
+    for h in c.given:
+        require(not h.false, "a denial is no hypothesis", h)
+        require_grammar(h)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from ..theory.symbolic import Expr, sympy
 from .enclosures import ball
-from .grammar import BINDERS, UNDEFINED_FUNCTION, opened, well_formed
+from .grammar import BINDERS, UNDEFINED_FUNCTION, known, opened, well_formed
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def defined(e: Expr, facts: Facts) -> bool:
         return well_formed(e)
     if isinstance(e, BINDERS):
         return _binder_defined(e, facts)
-    if not all(defined(a, facts) for a in e.args):
+    if not known(e) or not all(defined(a, facts) for a in e.args):
         return False
     if e.is_Pow:
         if whole_number(e.exp, facts):

@@ -14,9 +14,12 @@ from ..theory.symbolic import Expr, Symbol, sympy
 BINDERS = (sympy.Sum, sympy.Product, sympy.Integral)
 ENTIRE = (sympy.exp, sympy.sin, sympy.cos, sympy.sinc)
 KINKED = (sympy.Min, sympy.Max, sympy.Abs)
+_FUNCTION: Any = sympy.core.function.UndefinedFunction
 UNDEFINED_FUNCTION: Any = sympy.core.function.AppliedUndef
 
-
+_OPERATIONS = {
+    *ENTIRE, *KINKED, sympy.log, sympy.gamma, sympy.besselj, sympy.Add, sympy.Mul, sympy.Pow,
+}  # fmt: skip
 _NAME = re.compile(r"[^\W\d]\w*'*")  # no bracket: names of generators have some
 
 
@@ -53,17 +56,32 @@ def well_formed(e: Expr) -> bool:
         ends = all(u in (sympy.oo, -sympy.oo) or well_formed(u) for u in (a, b))
         free = not (a.free_symbols | b.free_symbols | bound(f)) & {x}
         return ends and free and well_formed(f)
-    known = (*ENTIRE, *KINKED, sympy.log, sympy.gamma, sympy.besselj, sympy.Add, sympy.Mul)
-    is_known = isinstance(e, (*known, sympy.Pow, UNDEFINED_FUNCTION))
-    named = not isinstance(e, UNDEFINED_FUNCTION) or _NAME.fullmatch(str(e.func))
-    return is_known and bool(named) and all(well_formed(a) for a in e.args)
+    return known(e) and all(well_formed(a) for a in e.args)
+
+
+def known(e: Expr) -> bool:
+    """Whether the outermost operation is in the grammar; logarithms have no base but e."""
+    if isinstance(e, UNDEFINED_FUNCTION):
+        return e.func == sympy.Function(str(e.func)) and bool(_NAME.fullmatch(str(e.func)))
+    return e.func in _OPERATIONS and (e.func is not sympy.log or len(e.args) == 1)
 
 
 def substituted(e: Expr, values: tuple[tuple[Any, Expr], ...]) -> Expr:
     """Symbols and undefined functions replaced by terms (functions by Lambdas), all at once."""
-    caught = bound(e)
+    caught, symbols = bound(e), {k: v for k, v in values if getattr(k, "is_Symbol", False)}
     for key, value in values:
+        require(key in symbols or isinstance(key, _FUNCTION), "no name", key)
+        body = value if key in symbols else value.expr
+        require(well_formed(body), "no term", value)
         require(not caught & ({key} | value.free_symbols), "meets a bound symbol", key)
-        if not getattr(key, "is_Symbol", False):
+        if key not in symbols:
+            inner = bound(body) & (caught | e.free_symbols)
+            require(not inner, "would be caught", inner)
             e = e.replace(key, value)
-    return e.xreplace({k: v for k, v in values if getattr(k, "is_Symbol", False)})
+    return e.xreplace(symbols)
+
+
+def require_smooth(e: Expr, x: Symbol) -> None:
+    """Require that e may be differentiated by x, wherever e is defined."""
+    unknown = e.atoms(*KINKED, *BINDERS, UNDEFINED_FUNCTION, sympy.sinc, sympy.gamma, sympy.besselj)
+    require(not any(x in u.free_symbols for u in unknown), "no derivative of", e)

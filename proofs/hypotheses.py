@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from ..theory.symbolic import Expr, sympy
 from .claims import ASYMPTOTIC, Claim
 from .facts import Facts, above, defined, different, whole_number
-from .grammar import BINDERS, bound, require
+from .grammar import BINDERS, bound, opened, require
 from .normal_forms import zero
 
 
@@ -61,6 +62,49 @@ def holds(h: Claim, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
             return whole_number(h.left, facts)
         case _:
             return above(h.gap, facts, h.relation == "<")
+
+
+def applies(
+    values: tuple[tuple[Any, Expr], ...], claim: Claim, given: tuple[Claim, ...],
+    used: Sequence[Claim] = (),
+) -> bool:  # fmt: skip
+    """Whether values of symbols are defined, and of functions wherever the claim applies them."""
+    name = "value"
+    while name in f"{claim}{given}{values}":
+        name += "'"
+    mark = sympy.Function(name)
+    symbols = [v for k, v in values if getattr(k, "is_Symbol", False)]
+    marked = tuple((k, v if v in symbols else sympy.Lambda(v.signature, mark(v.expr)))
+                   for k, v in values)  # fmt: skip
+    here = said((*given, *applicable(given, used)))
+    stated = (*(replace(h, over=()) for h in given if h.over), *used)
+    return all(defined(v, here) for v in symbols) and (
+        not (len(symbols) < len(values)) or _applied(claim.at(*marked), mark, given, stated)
+    )
+
+
+def _applied(c: Claim, mark: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
+    """Whether all marked terms in a claim are defined, in its hypotheses too."""
+    outside = tuple(g for g in given if not g.free & set(c.over))
+    inside = (*outside, *c.given) if c.over else outside
+    sides = all(_marked_defined(e, mark, inside, used) for e in (c.left, c.right))
+    return sides and all(_applied(h, mark, outside, used) for h in c.given)
+
+
+def _marked_defined(e: Expr, mark: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
+    if not e.has(mark):
+        return True
+    facts = said((*given, *applicable(given, used)))
+    if e.func == mark:
+        return defined(e.args[0], facts)
+    if not isinstance(e, BINDERS):
+        return all(_marked_defined(a, mark, given, used) for a in e.args)
+    f, x, a, b = opened(e)
+    ends = [h for h in (Claim(a, "<=", x), Claim(x, "<=", b)) if not h.gap.has(sympy.oo)]
+    whole = [Claim(x, "whole")] * (not isinstance(e, sympy.Integral) and whole_number(a, facts))
+    inside = (*(g for g in given if x not in g.free), *ends, *whole)
+    outer = all(_marked_defined(u, mark, given, used) for u in (a, b))
+    return outer and _marked_defined(f, mark, inside, used)
 
 
 def same(a: Expr, b: Expr, facts: Facts) -> bool:

@@ -12,22 +12,21 @@ from weakref import WeakKeyDictionary
 
 from ..theory.symbolic import Expr, Symbol, sympy
 from . import reasons as by
-from .claims import ASYMPTOTIC, Axiom, Claim
+from .claims import ASYMPTOTIC, Axiom, Claim, require_grammar
 from .enclosures import above_on_box
 from .facts import Facts, above, defined, different, whole_number
 from .grammar import (
     BINDERS,
-    KINKED,
     UNDEFINED_FUNCTION,
     Refused,
     bound,
     opened,
     require,
+    require_smooth,
     substituted,
-    well_formed,
 )
 from .growth import limit_of, term_at
-from .hypotheses import applicable, facts_under, holds, said, same, states
+from .hypotheses import applicable, applies, facts_under, holds, said, same, states
 from .normal_forms import zero
 
 _SEAL = object()
@@ -68,9 +67,7 @@ def check(step: Step) -> Theorem:
     """
     if step not in _CHECKED:
         used, claim = [check(u) for u in step.uses], step.claim
-        for c in (claim, *claim.given, *(g for h in claim.given for g in h.given)):
-            infinite = c.right == sympy.oo and c.relation == "->"
-            require(well_formed(c.left) and (infinite or well_formed(c.right)), "no term", c)
+        require_grammar(claim)
         caught = (bound(claim.left) | bound(claim.right)) & claim.free
         require(not caught, "both bound and free", caught)
         is_denial = isinstance(step.reason, by.Counterexample)
@@ -88,12 +85,6 @@ def check(step: Step) -> Theorem:
         admitted = frozenset(assumed).union(*(t.admitted for t in used))
         _CHECKED[step] = Theorem(claim, axioms, admitted, _SEAL)
     return _CHECKED[step]
-
-
-def _smooth(e: Expr, x: Symbol) -> None:
-    """Require that the kernel may differentiate e by x, wherever e is defined."""
-    unknown = e.atoms(*KINKED, *BINDERS, UNDEFINED_FUNCTION, sympy.sinc, sympy.gamma, sympy.besselj)
-    require(not any(x in u.free_symbols for u in unknown), "no derivative of", e)
 
 
 def _given(c: Claim, _: by.Given, used: tuple[Claim, ...]) -> Facts:
@@ -127,7 +118,7 @@ def _combine(c: Claim, r: by.Combine, used: tuple[Claim, ...]) -> Facts:
 def _interval(c: Claim, r: by.Interval, used: tuple[Claim, ...]) -> Facts:
     require(c.relation in ("<=", "<", "!="), "balls decide inequalities")
     box: dict[Symbol, tuple[Expr, Expr]] = {}
-    rising = [h for h in c.given if h.relation in ("<=", "<")]
+    rising = [h for h in c.given if h.relation in ("<=", "<") and not (h.over or h.given)]
     for s in c.gap.free_symbols:
         low = [h.left for h in rising if h.right == s and h.left.is_Rational]
         high = [h.right for h in rising if h.left == s and h.right.is_Rational]
@@ -139,7 +130,7 @@ def _interval(c: Claim, r: by.Interval, used: tuple[Claim, ...]) -> Facts:
 
 def _monotone(c: Claim, r: by.Monotone, used: tuple[Claim, ...]) -> Facts:
     x, a, f = r.symbol, r.start, c.right
-    _smooth(f, x)
+    require_smooth(f, x)
     outer = tuple(h for h in c.given if x not in h.free)
     caps = tuple(h for h in c.given if h.left == x and h.relation in ("<", "<=") and not h.over)
     outer += tuple(h for h in caps if x not in h.right.free_symbols)
@@ -157,7 +148,8 @@ def _antiderivative(c: Claim, r: by.Antiderivative, used: tuple[Claim, ...]) -> 
     facts, big = facts_under(c.given, used), r.antiderivative
     f, x, a, b = opened(c.left)
     require(not c.left.has(sympy.oo) and above(b - a, facts), "ends out of order", a, b)
-    _smooth(big, x)
+    require(defined(a, facts) and defined(b, facts), "may be undefined", a, b)
+    require_smooth(big, x)
     inner = facts.inside(c.left, closed=False)
     require(defined(big, facts.inside(c.left)) and defined(f, inner), "undefined")
     require(zero(big.diff(x) - f, inner), "not an antiderivative")
@@ -178,7 +170,8 @@ def _range(c: Claim, r: by.Range, used: tuple[Claim, ...]) -> Facts:
         require(same(c.right, value, facts), "not", value)
         return facts
     after = r.at if is_integral else r.at + 1
-    require(is_integral or whole_number(r.at, facts), "not whole", r.at)
+    there = defined(r.at, facts) and (is_integral or whole_number(r.at, facts))
+    require(there, "not whole", r.at)
     require(above(after - a, facts) and (b == sympy.oo or above(b - r.at, facts)), "not between")
     parts = [e.func(f, (x, a, r.at)), e.func(f, (x, after, b))]
     whole = parts[0] * parts[1] if isinstance(e, sympy.Product) else parts[0] + parts[1]
@@ -196,6 +189,7 @@ def _linear(c: Claim, r: by.Linear, used: tuple[Claim, ...]) -> Facts:
     split = sum((k * g for k, g in r.parts), sympy.S.Zero)
     require(defined(split, inner) and zero(f - split, inner), "not these parts")
     total = sum((k * e.func(g, (x, a, b)) for k, g in r.parts), sympy.S.Zero)
+    require(all(defined(u, facts) for u in (a, b) if u != sympy.oo), "may be undefined", a, b)
     require(defined(total, facts) and same(c.right, total, facts), "not", total)
     return replace(facts, convergent=facts.convergent | {e})
 
@@ -256,17 +250,18 @@ def _induction(c: Claim, r: by.Induction, used: tuple[Claim, ...]) -> Facts:
 
 def _split(c: Claim, r: by.Split, used: tuple[Claim, ...]) -> None:
     x, a = r.symbol, r.at
-    step = int(whole_number(x - a, said(c.given)))
+    step, there = int(whole_number(x - a, said(c.given))), c.at((x, a))
+    require(defined(a, said(c.given)), "may be undefined", a)
     rel = "<=" if step else "<"
     cases = (Claim(x, rel, a - step), Claim(a + step, rel, x))
     for u, case in zip((used[0], used[2]), cases, strict=True):
         require(states(u, c, facts_under((*c.given, case), (u,))), "another claim for", case)
-    there = c.at((x, a))
     require(states(used[1], there, facts_under(there.given, (used[1],))), "another claim at", a)
 
 
 def _instance(c: Claim, r: by.Instance, used: tuple[Claim, ...]) -> Facts | None:
     moved, here = used[0].at(*r.values), applicable(c.given, used[1:])
+    require(applies(r.values, used[0], c.given, used[1:]), "may be undefined", r.values)
     for h in moved.given:
         require(holds(h, c.given, used[1:] if h.over else here), "not given", h)
     facts = said((*c.given, *here, replace(moved, given=())))
@@ -320,7 +315,8 @@ def _order(c: Claim, r: by.Order, used: tuple[Claim, ...]) -> None:
         require(alike and zero(limit.left - c.left / c.right, facts), "not the limit of the ratio")
         require(c.relation == "O" or above(limit.right, facts, True), "the limit may be 0")
         return
-    require(all(c.along not in k.free_symbols for k in r.constants), "no constants")
+    steady = (c.along not in k.free_symbols and defined(k, facts) for k in r.constants)
+    require(all(steady), "no constants", r.constants)
     low, high = (r.constants[0], r.constants[-1]) if c.relation == "Theta" else (0, r.constants[0])
     require(c.relation == "O" or above(low, facts, True), "the constant may be 0")
     for bound_ in (Claim(low * c.right, "<=", c.left), Claim(c.left, "<=", high * c.right)):
@@ -335,6 +331,7 @@ def _counterexample(c: Claim, r: by.Counterexample, used: tuple[Claim, ...]) -> 
         grows = h.relation == "whole" or (h.relation in ("<", "<=") and h.left.is_Rational)
         require(grows and c.along in (h.left, h.right) and not h.over, "a bound", h)
     require(all(holds(h, large, used) for h in there.given), "hypotheses fail at these values")
+    require(applies(r.values, replace(c, false=False), large, used), "undefined", r.values)
     facts = facts_under(large, used)
     if c.relation in ("O", "Theta", "->"):
         (limit,) = [u for u in used if u.relation == "->" and u.along == c.along]

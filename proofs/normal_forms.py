@@ -19,8 +19,13 @@ _TURN = "(-1)^"
 def zero(e: Expr, facts: Facts) -> bool:
     """Whether e = 0 is seen from its normal form; e must be defined where the facts hold."""
     top = _expanded(_form(e, facts))[0]
-    turns = {p: p.base ** (p.exp % 2) for p in top.atoms(sympy.Pow) if str(p.base)[:5] == _TURN}
+    turns = {p: p.base ** (p.exp % 2) for p in top.atoms(sympy.Pow) if _turns(p.base)}
     return bool(sympy.expand(top.xreplace(turns)) == 0)
+
+
+def _turns(g: Expr) -> bool:
+    """Whether a generator is a power of −1."""
+    return bool(g.is_Symbol) and g.name.startswith(_TURN)
 
 
 def _expanded(form: Expr) -> tuple[Expr, Expr]:
@@ -46,7 +51,7 @@ def _form(e: Expr, facts: Facts) -> Expr:
     if e.is_Pow and (e.base == -1 or above(e.base, facts, True)):
         base = sympy.I * sympy.pi if e.base == -1 else _log(e.base, facts)
         return _exp(_form(e.exp, facts) * base, facts)
-    if isinstance(e, sympy.exp) or e == sympy.E:
+    if e.func is sympy.exp or e == sympy.E:
         return _exp(_form(sympy.log(e) if e == sympy.E else e.args[0], facts), facts)
     if isinstance(e, (sympy.sin, sympy.cos)):
         wave = _exp(sympy.I * _form(e.args[0], facts), facts)
@@ -69,7 +74,7 @@ def _log(e: Expr, facts: Facts) -> Expr:
             *((p, -v) for p, v in sympy.factorint(e.q).items()),
         ]
         return sympy.Add(*(v * sympy.log(p) for p, v in primes))
-    if e == sympy.E or isinstance(e, sympy.exp):
+    if e == sympy.E or e.func is sympy.exp:
         return sympy.S.One if e == sympy.E else _form(e.args[0], facts)
     if e.is_Mul and all(above(a, facts, True) for a in e.args):
         return sympy.Add(*(_log(a, facts) for a in e.args))
@@ -97,8 +102,10 @@ def _exp(form: Expr, facts: Facts) -> Expr:
 def _power(term: Expr, facts: Facts) -> Expr:
     """exp(c m) for a monomial m: a power of x for m = log x, of −1 for m = iπ × a whole number."""
     c, m = term.as_coeff_Mul()
-    if c == 0 or isinstance(m, sympy.log):
-        return m.args[0] ** c if c != 0 else sympy.S.One
+    if c == 0:
+        return sympy.S.One
+    if isinstance(m, sympy.log) and (c.is_Integer or not any(map(_turns, m.free_symbols))):
+        return m.args[0] ** c  # of (−1)^n the root is not exp(iπn/2)
     others = m / (sympy.I * sympy.pi)
     if others == 1:
         return sympy.S.NegativeOne**c
