@@ -6,8 +6,8 @@ With b = 2, N_k = N and q = 1 (the paper's Jacobian ρ^(s−1) against ρ^(−s�
 
 Eq. 19 lets the second integral begin at 0, where it diverges; Eq. 20 leaves out what lies below ρ0,
 and with c₂ = c its right side, 2γc/(αN²), is then no bound; where the rows of Eq. 16 meet,
-c₂ = c ρ0^(s+1), it is one. On a true axis there is no Jacobian, s = 1, and a disk has q = 2: there
-the order is N^−3 log N.
+c₂ = c ρ0^(s+1), it is one. On a true axis there is no Jacobian, s = 1, and a ball, whose power
+falls as ρ^(−d−1), has q = d: there the order is N^−3 log N for a disk, and N^−3 for d >= 3.
 """
 
 from dataclasses import replace
@@ -32,7 +32,7 @@ from .tactics import (
 )
 
 alpha, gamma = radial.alpha, radial.gamma
-(t,) = real("t")
+t, d = real("t d")
 POINT: readings.Values = tuple(
     (k, sympy.Integer(v)) for k, v in ((N, 4), (s, 1), (alpha, 1), (gamma, 1), (rho0, 3), (c, 1))
 )
@@ -157,6 +157,30 @@ def disk_on_an_axis() -> Step:
 def not_the_rate_of_a_disk() -> Step:
     """N² V → 0 there."""
     return readings.denial(EQ_21_DISK, "b=q", -TWO, 0, readings.numbers(b=2))
+
+
+@cache
+def ball_on_an_axis() -> Step:
+    """V = Θ(N^−3) at b = 2 < q = d, e = 1, s = 1: a ball in d >= 3 dimensions."""
+    values = ((b, TWO), (radial.q, d), (e, ONE), (s, ONE))
+    found = radial.order("b<q")
+    moved = found.claim.at(*values)
+    signs = (*positive(alpha, gamma, rho0, c, c2), radial.EVENTUALLY[0])
+    given = (*signs, Claim(sympy.Integer(3), "<=", d))
+    return Step(replace(moved, given=given), by.Instance(values), (found,))
+
+
+EQ_21_BALL = readings.order_claim(
+    "b<q", "Theta", -TWO, 0,
+    Claim(s, "=", ONE), Claim(b, "=", TWO), Claim(e, "=", ONE),
+)  # fmt: skip
+"""Eq. 21 as a rate on a true axis, s = 1, for a ball, q = d > 2."""
+
+
+@cache
+def not_the_rate_of_a_ball() -> Step:
+    """N² V → 0 there, at d = 3."""
+    return readings.denial(EQ_21_BALL, "b<q", -TWO, 0, readings.numbers(b=2, q=3))
 
 
 @cache

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 from ..theory.symbolic import Expr, Symbol, sympy
-from .grammar import require, substituted, well_formed
+from .grammar import bound, require, substituted, well_formed
 
 Relation = Literal["=", "<=", "<", "!=", "whole", "->", "O", "Theta"]
+_class: Any = type
 ASYMPTOTIC: tuple[Relation, ...] = ("->", "O", "Theta")
 
 
@@ -75,12 +76,26 @@ class Claim:
 
 def require_grammar(c: Claim) -> None:
     """Require that the terms of a claim and of its hypotheses, none denied, are in the grammar."""
+    own = type(c) is Claim and type(c.given) is type(c.over) is tuple and type(c.relation) is str
+    require(own and type(c.false) is bool, "no claim", c)
+    named = (*c.over, *(() if c.along is None else (c.along,)))
+    require(all(well_formed(s) and s.is_Symbol for s in named), "no symbols", named)
     infinite = c.right == sympy.oo and c.relation == "->"
     require(well_formed(c.left) and (infinite or well_formed(c.right)), "no term", c)
     require(c.relation in get_args(Relation), "no relation", c.relation)
+    caught = (bound(c.left) | bound(c.right)) & c.free
+    require(not caught, "both bound and free", caught)
     for h in c.given:
         require(not h.false, "a denial is no hypothesis", h)
         require_grammar(h)
+
+
+def require_fixed(part: Any) -> None:
+    """Require that what is listed, at any depth, is the same whenever it is asked for."""
+    cls = _class(part)
+    require(cls is tuple or not issubclass(cls, (tuple, list)), "no tuple", part)
+    for p in part if cls is tuple else ():
+        require_fixed(p)
 
 
 @dataclass(frozen=True)

@@ -112,9 +112,17 @@ def _binder_defined(e: Expr, facts: Facts) -> bool:
     f, _, a, b = opened(e)
     if e in facts.convergent:
         return True
-    ends = all(not u.has(sympy.oo) and defined(u, facts) for u in (a, b))
-    if isinstance(e, sympy.Integral):
-        ends = ends and above(b - a, facts) and not e.has(UNDEFINED_FUNCTION)
-    else:
-        ends = ends and whole_number(a, facts) and whole_number(b, facts)
-    return ends and defined(f, facts.inside(e))
+    unknown = isinstance(e, sympy.Integral) and e.has(UNDEFINED_FUNCTION)
+    proper = not (unknown or a.has(sympy.oo) or b.has(sympy.oo))
+    return proper and range_defined(e, facts) and defined(f, facts.inside(e))
+
+
+def range_defined(binder: Expr, facts: Facts) -> bool:
+    """Whether the finite ends have values: whole ones of a sum, those of an integral in order."""
+    _, _, *both = opened(binder)
+    ends = [u for u in both if not u.has(sympy.oo)]
+    if not all(defined(u, facts) for u in ends):
+        return False
+    if isinstance(binder, sympy.Integral):
+        return len(ends) < 2 or above(ends[1] - ends[0], facts)
+    return all(whole_number(u, facts) for u in ends)

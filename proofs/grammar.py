@@ -27,6 +27,23 @@ class Refused(ValueError):
     """A step that the kernel cannot check."""
 
 
+_TYPES = {
+    *BINDERS, *_OPERATIONS, sympy.Symbol, sympy.Tuple, sympy.Integer, sympy.Rational,
+    *map(type, (sympy.S.Zero, sympy.S.One, -sympy.S.One, sympy.S.Half, sympy.pi, sympy.E)),
+    *map(type, (sympy.oo, -sympy.oo)),
+}  # fmt: skip
+_class: Any = type
+_PLAIN: Any = sympy.Function("f")
+
+
+def own(e: Any) -> bool:
+    """Whether the outermost class of a term is one of SymPy's, and none made of it."""
+    cls = _class(e)
+    made_by_name = _class(cls) is _FUNCTION and cls.__bases__ == (UNDEFINED_FUNCTION,)
+    plain = made_by_name and cls.__dict__.keys() == _PLAIN.__dict__.keys()
+    return cls in _TYPES or bool(plain)
+
+
 def require(condition: bool, what: str, *terms: Any) -> None:
     """Refuse the step unless the condition holds."""
     if not condition:
@@ -47,13 +64,15 @@ def bound(e: Expr) -> set[Symbol]:
 
 def well_formed(e: Expr) -> bool:
     """Whether the expression is in the grammar: real symbols, one range per binder."""
+    if not own(e):
+        return False
     if e.is_Symbol:
         return e == sympy.Symbol(e.name, real=True) and bool(_NAME.fullmatch(e.name))
     if e.is_Atom:
         return bool(e.is_Rational) or e in (sympy.pi, sympy.E)
     if isinstance(e, BINDERS):
         f, x, a, b = opened(e)
-        ends = all(u in (sympy.oo, -sympy.oo) or well_formed(u) for u in (a, b))
+        ends = (a == -sympy.oo or well_formed(a)) and (b == sympy.oo or well_formed(b))
         free = not (a.free_symbols | b.free_symbols | bound(f)) & {x}
         return ends and free and well_formed(f)
     return known(e) and all(well_formed(a) for a in e.args)
@@ -61,22 +80,26 @@ def well_formed(e: Expr) -> bool:
 
 def known(e: Expr) -> bool:
     """Whether the outermost operation is in the grammar; logarithms have no base but e."""
+    name = str(e.func)
     if isinstance(e, UNDEFINED_FUNCTION):
-        return e.func == sympy.Function(str(e.func)) and bool(_NAME.fullmatch(str(e.func)))
-    return e.func in _OPERATIONS and (e.func is not sympy.log or len(e.args) == 1)
+        return own(e) and e.func == sympy.Function(name) and bool(_NAME.fullmatch(name))
+    return type(e) in _OPERATIONS and (e.func is not sympy.log or len(e.args) == 1)
 
 
 def substituted(e: Expr, values: tuple[tuple[Any, Expr], ...]) -> Expr:
     """Symbols and undefined functions replaced by terms (functions by Lambdas), all at once."""
-    caught, symbols = bound(e), {k: v for k, v in values if getattr(k, "is_Symbol", False)}
+    symbols = {k: v for k, v in values if getattr(k, "is_Symbol", False)}
+    bodies = [v.expr for k, v in values if k not in symbols and type(v) is sympy.Lambda]
+    inner = {s for b in bodies for s in bound(b)}
+    caught, names = bound(e) | inner, e.free_symbols.union(*(v.free_symbols for _, v in values))
+    require(not inner & (bound(e) | names), "would be caught", inner)
     for key, value in values:
         require(key in symbols or isinstance(key, _FUNCTION), "no name", key)
+        require(key in symbols or type(value) is sympy.Lambda, "no function", value)
         body = value if key in symbols else value.expr
         require(well_formed(body), "no term", value)
         require(not caught & ({key} | value.free_symbols), "meets a bound symbol", key)
         if key not in symbols:
-            inner = bound(body) & (caught | e.free_symbols)
-            require(not inner, "would be caught", inner)
             e = e.replace(key, value)
     return e.xreplace(symbols)
 

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import repeat
 from typing import Any
 
 from ..theory.symbolic import Expr, sympy
 from .claims import ASYMPTOTIC, Claim
 from .facts import Facts, above, defined, different, whole_number
-from .grammar import BINDERS, bound, opened, require
+from .grammar import BINDERS, bound, opened, require, substituted
 from .normal_forms import zero
 
 
@@ -46,7 +47,7 @@ def holds(h: Claim, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
     if h in given:
         return True
     if h.over or h.relation in ASYMPTOTIC:
-        fresh = not {s for g in given for s in g.free} & set(h.over)
+        fresh = not {s for g in given for s in g.free} & {*h.over, h.along}
         inside = (*given, *h.given)
         stated = (c for c in used if states(c, h, said(inside)))
         return fresh and any(all(holds(g, inside, ()) for g in c.given) for c in stated)
@@ -64,6 +65,15 @@ def holds(h: Claim, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
             return above(h.gap, facts, h.relation == "<")
 
 
+def keeps_sums(h: Claim, moved: Claim, values: tuple[tuple[Any, Expr], ...]) -> bool:
+    """Whether SymPy dropped no sum of a hypothesis at other values, as from 0 times it."""
+    pairs = tuple((k, v) for k, v in values if k not in h.over)
+    sides = ((h.left, moved.left), (h.right, moved.right))
+    kept = all({substituted(b, pairs) for b in e.atoms(*BINDERS)} <= there.atoms(*BINDERS)
+               for e, there in sides)  # fmt: skip
+    return kept and all(map(keeps_sums, h.given, moved.given, repeat(pairs)))
+
+
 def applies(
     values: tuple[tuple[Any, Expr], ...], claim: Claim, given: tuple[Claim, ...],
     used: Sequence[Claim] = (),
@@ -78,9 +88,18 @@ def applies(
                    for k, v in values)  # fmt: skip
     here = said((*given, *applicable(given, used)))
     stated = (*(replace(h, over=()) for h in given if h.over), *used)
-    return all(defined(v, here) for v in symbols) and (
-        not (len(symbols) < len(values)) or _applied(claim.at(*marked), mark, given, stated)
+    kept = all(map(keeps_sums, claim.given, claim.at(*values).given, repeat(values)))
+    return (
+        kept
+        and all(defined(v, here) for v in symbols)
+        and (not (len(symbols) < len(values)) or _applied(claim.at(*marked), mark, given, stated))
     )
+
+
+def defined_at(e: Expr, values: tuple[tuple[Any, Expr], ...], facts: Facts) -> bool:
+    """Whether e has a value at the values, with all that SymPy may drop from it, as 0 times it."""
+    whole = e == sympy.oo or defined(substituted(e, values), facts)
+    return whole and (isinstance(e, BINDERS) or all(defined_at(u, values, facts) for u in e.args))
 
 
 def _applied(c: Claim, mark: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
@@ -118,4 +137,4 @@ def states(used: Claim, claim: Claim, facts: Facts) -> bool:
     related = weaker or used.relation == claim.relation
     alike = related and (used.along, used.false) == (claim.along, claim.false)
     sides = ((used.left, claim.left), (used.right, claim.right))
-    return alike and all(same(a, b, facts) for a, b in sides)
+    return alike and all(a == b or (same(a, b, facts) and defined(b, facts)) for a, b in sides)

@@ -7,41 +7,30 @@ is outside: a mistake there can make a proof fail, and cannot make a theorem.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import InitVar, dataclass, replace
 from weakref import WeakKeyDictionary
 
 from ..theory.symbolic import Expr, Symbol, sympy
 from . import reasons as by
-from .claims import ASYMPTOTIC, Axiom, Claim, require_grammar
+from .claims import ASYMPTOTIC, Axiom, Claim, require_fixed, require_grammar
 from .enclosures import above_on_box
-from .facts import Facts, above, defined, different, whole_number
+from .facts import Facts, above, defined, different, range_defined, whole_number
 from .grammar import (
     BINDERS,
     UNDEFINED_FUNCTION,
     Refused,
-    bound,
     opened,
     require,
     require_smooth,
     substituted,
 )
 from .growth import limit_of, term_at
-from .hypotheses import applicable, applies, facts_under, holds, said, same, states
+from .hypotheses import applicable, applies, defined_at, facts_under, holds, said, same, states
 from .normal_forms import zero
 
+Step = by.Step
 _SEAL = object()
-_ERRORS = (ArithmeticError, LookupError, RuntimeError, TypeError, ValueError)
-_FAILURES = (*_ERRORS, sympy.PolynomialError)
 _CHECKED: "WeakKeyDictionary[Step, Theorem]" = WeakKeyDictionary()
-
-
-@dataclass(frozen=True, eq=False)
-class Step:
-    """A claim, the reason for it, and the steps that the reason uses, in its order."""
-
-    claim: Claim
-    reason: by.Reason
-    uses: tuple["Step", ...] = ()
 
 
 @dataclass(frozen=True)
@@ -51,10 +40,10 @@ class Theorem:
     claim: Claim
     axioms: frozenset[Axiom]
     admitted: frozenset[str]
-    seal: object
+    seal: InitVar[object]
 
-    def __post_init__(self) -> None:
-        require(self.seal is _SEAL, "only the kernel makes theorems")
+    def __post_init__(self, seal: object) -> None:
+        require(seal is _SEAL, "only the kernel makes theorems")
 
 
 def check(step: Step) -> Theorem:
@@ -66,15 +55,15 @@ def check(step: Step) -> Theorem:
         If the step, or one that it uses, cannot be checked.
     """
     if step not in _CHECKED:
+        require(type(step) is Step and type(step.uses) is tuple, "no step", step)
+        require_fixed(tuple(vars(step.reason).values()))
         used, claim = [check(u) for u in step.uses], step.claim
         require_grammar(claim)
-        caught = (bound(claim.left) | bound(claim.right)) & claim.free
-        require(not caught, "both bound and free", caught)
-        is_denial = isinstance(step.reason, by.Counterexample)
-        require(claim.false == is_denial, "a denial needs a counterexample")
+        require(not claim.over and not any(t.claim.false for t in used), "says nothing", claim)
+        require(claim.false == isinstance(step.reason, by.Counterexample), "no counterexample")
         try:
             facts = _RULES[type(step.reason)](claim, step.reason, tuple(t.claim for t in used))
-        except _FAILURES as error:
+        except Exception as error:  # whatever stops a rule, the step is not checked
             raise Refused(f"{error} in {type(step.reason).__name__}: {claim}") from error
         if facts is not None:
             for side in (claim.left, claim.right):
@@ -132,8 +121,8 @@ def _monotone(c: Claim, r: by.Monotone, used: tuple[Claim, ...]) -> Facts:
     x, a, f = r.symbol, r.start, c.right
     require_smooth(f, x)
     outer = tuple(h for h in c.given if x not in h.free)
-    caps = tuple(h for h in c.given if h.left == x and h.relation in ("<", "<=") and not h.over)
-    outer += tuple(h for h in caps if x not in h.right.free_symbols)
+    caps = [h for h in c.given if h.left == x and h.relation in ("<", "<=") and not h.over]
+    outer += tuple(h for h in caps if x not in h.right.free_symbols and not h.given)
     facts, inner = facts_under(c.given), facts_under((*outer, Claim(a, "<", x)), used)
     require(c.relation == "<=" and above(x - a, facts) and x not in a.free_symbols, "not rising")
     slope = used[0]
@@ -147,8 +136,7 @@ def _antiderivative(c: Claim, r: by.Antiderivative, used: tuple[Claim, ...]) -> 
     require(c.relation == "=" and isinstance(c.left, sympy.Integral), "not an integral")
     facts, big = facts_under(c.given, used), r.antiderivative
     f, x, a, b = opened(c.left)
-    require(not c.left.has(sympy.oo) and above(b - a, facts), "ends out of order", a, b)
-    require(defined(a, facts) and defined(b, facts), "may be undefined", a, b)
+    require(not c.left.has(sympy.oo) and range_defined(c.left, facts), "no range", a, b)
     require_smooth(big, x)
     inner = facts.inside(c.left, closed=False)
     require(defined(big, facts.inside(c.left)) and defined(f, inner), "undefined")
@@ -170,12 +158,12 @@ def _range(c: Claim, r: by.Range, used: tuple[Claim, ...]) -> Facts:
         require(same(c.right, value, facts), "not", value)
         return facts
     after = r.at if is_integral else r.at + 1
-    there = defined(r.at, facts) and (is_integral or whole_number(r.at, facts))
-    require(there, "not whole", r.at)
+    require(defined(r.at, facts) and (is_integral or whole_number(r.at, facts)), "not whole")
     require(above(after - a, facts) and (b == sympy.oo or above(b - r.at, facts)), "not between")
     parts = [e.func(f, (x, a, r.at)), e.func(f, (x, after, b))]
     whole = parts[0] * parts[1] if isinstance(e, sympy.Product) else parts[0] + parts[1]
-    require(defined(e, facts) or defined(whole, facts), "may diverge")
+    tail_too = isinstance(e, sympy.Product) and b == sympy.oo  # a product may be 0 by its head
+    require(defined(whole, facts) or (defined(e, facts) and not tail_too), "may diverge")
     facts = replace(facts, convergent=facts.convergent | {e, *parts})
     require(zero(c.right - whole, facts), "not", whole)
     return facts
@@ -187,9 +175,9 @@ def _linear(c: Claim, r: by.Linear, used: tuple[Claim, ...]) -> Facts:
     inner, (f, x, a, b) = facts.inside(e, closed=False), opened(e)
     require(all(x not in k.free_symbols for k, _ in r.parts), "coefficients free of", x)
     split = sum((k * g for k, g in r.parts), sympy.S.Zero)
-    require(defined(split, inner) and zero(f - split, inner), "not these parts")
+    known = defined(f, inner) and defined(split, inner) and range_defined(e, facts)
+    require(known and zero(f - split, inner), "not these parts")
     total = sum((k * e.func(g, (x, a, b)) for k, g in r.parts), sympy.S.Zero)
-    require(all(defined(u, facts) for u in (a, b) if u != sympy.oo), "may be undefined", a, b)
     require(defined(total, facts) and same(c.right, total, facts), "not", total)
     return replace(facts, convergent=facts.convergent | {e})
 
@@ -200,20 +188,18 @@ def _bind(c: Claim, _: by.Bind, used: tuple[Claim, ...]) -> Facts:
     (f, x, a, b), (g, *range_) = opened(e), opened(bigger)
     require((x, a, b) == tuple(range_) and c.relation in ("=", "<="), "not sums of one range")
     is_integral = isinstance(e, sympy.Integral)
-    ends = [Claim(u, "<" if is_integral else "<=", v) for u, v in ((a, x), (x, b))]
-    ends = [h for h in ends if not {h.left, h.right} & {sympy.oo, -sympy.oo}]
+    pairs = [(u, v) for u, v in ((a, x), (x, b)) if sympy.oo not in (-u, v)]
+    ends = [Claim(u, "<" if is_integral else "<=", v) for u, v in pairs]
     inside = (*c.given, *ends, *(() if is_integral else (Claim(x, "whole"),)))
     inner = facts_under(inside, used)
     outer = said((*c.given, *applicable(c.given, used)))
     require(states(used[0], Claim(f, c.relation, g), inner), "not the terms")
     require(not is_integral or not e.has(UNDEFINED_FUNCTION), "perhaps not integrable")
-    steady = [u for u in (a, b) if not u.has(sympy.oo)]
-    known = all(defined(u, outer) and (is_integral or whole_number(u, outer)) for u in steady)
     both = [defined(u, outer) for u in (e, bigger)]
     positive = above(f, inner)
-    proper = len(steady) == 2 and (not is_integral or all(both))
+    proper = len(ends) == 2 and (not is_integral or all(both))
     converges = any(both) if c.relation == "=" else positive and both[1]
-    require(known and (proper or converges), "may diverge")
+    require(range_defined(e, outer) and (proper or converges), "may diverge")
     require(positive or c.relation == "=" or not isinstance(e, sympy.Product), "factors below 0")
     return replace(outer, convergent=outer.convergent | {e, bigger})
 
@@ -251,12 +237,15 @@ def _induction(c: Claim, r: by.Induction, used: tuple[Claim, ...]) -> Facts:
 def _split(c: Claim, r: by.Split, used: tuple[Claim, ...]) -> None:
     x, a = r.symbol, r.at
     step, there = int(whole_number(x - a, said(c.given))), c.at((x, a))
+    require_grammar(there)
     require(defined(a, said(c.given)), "may be undefined", a)
     rel = "<=" if step else "<"
     cases = (Claim(x, rel, a - step), Claim(a + step, rel, x))
     for u, case in zip((used[0], used[2]), cases, strict=True):
         require(states(u, c, facts_under((*c.given, case), (u,))), "another claim for", case)
-    require(states(used[1], there, facts_under(there.given, (used[1],))), "another claim at", a)
+    here = facts_under(there.given, (used[1],))
+    require(states(used[1], there, here), "another claim at", a)
+    require(all(defined_at(e, ((x, a),), here) for e in (c.left, c.right)), "undefined at", a)
 
 
 def _instance(c: Claim, r: by.Instance, used: tuple[Claim, ...]) -> Facts | None:
@@ -272,6 +261,7 @@ def _instance(c: Claim, r: by.Instance, used: tuple[Claim, ...]) -> Facts | None
 def _limit(c: Claim, r: by.Limit, used: tuple[Claim, ...]) -> Facts:
     n, facts = c.along, facts_under(c.given, used)
     require(c.relation == "->" and n is not None and bool(r.terms), "not a limit")
+    require(all(type(t[3]) is int for t in r.terms), "no whole power of a logarithm", r.terms)
     require(not any(n in u.free_symbols for t in r.terms for u in t[:3]), "terms free of", n)
     total = sum((term_at(t, n) for t in r.terms), sympy.S.Zero)
     require(defined(total, facts) and zero(c.left - total, facts), "not zero", c.left - total)
@@ -285,8 +275,8 @@ def _squeeze(c: Claim, _: by.Squeeze, used: tuple[Claim, ...]) -> Facts:
     for side, limit in zip(used[::2], used[1::2], strict=True):
         reached = limit.along == c.along and same(limit.right, c.right, facts)
         require(limit.relation == "->" and reached, "another limit")
-        ends = [(side.left, side.right)] + [(side.right, side.left)] * (side.relation == "=")
         require(side.relation in ("=", "<=", "<"), "not a bound")
+        ends = [(side.left, side.right)] + [(side.right, side.left)] * (side.relation == "=")
         below = any(same(u, limit.left, facts) and same(v, c.left, facts) for u, v in ends)
         over = any(same(v, limit.left, facts) and same(u, c.left, facts) for u, v in ends)
         low, high = low or below, high or over
@@ -301,7 +291,8 @@ def _eventually(c: Claim, _: by.Eventually, used: tuple[Claim, ...]) -> None:
     far = grows.right == sympy.oo or above(grows.right, facts, True)
     require(far and grows.along == c.along, "does not stay above 0")
     for h in main.given:
-        dropped = h.relation in ("<", "<=") and not h.over and same(h.gap, grows.left, facts)
+        known = not h.over and defined(h.left, facts) and defined(h.right, facts)
+        dropped = known and h.relation in ("<", "<=") and same(h.gap, grows.left, facts)
         require(dropped or holds(h, c.given, ()), "not given", h)
     require(states(main, c, facts), "another claim")
 
@@ -312,11 +303,13 @@ def _order(c: Claim, r: by.Order, used: tuple[Claim, ...]) -> None:
     if not r.constants:
         (limit,) = used
         alike = limit.relation == "->" and limit.along == c.along and limit.right != sympy.oo
-        require(alike and zero(limit.left - c.left / c.right, facts), "not the limit of the ratio")
+        sure = said((*c.given, Claim(limit.left, "=", limit.left)))
+        require(alike and defined(c.left, sure), "another limit")
+        require(zero(limit.left - c.left / c.right, facts), "not the limit of the ratio")
         require(c.relation == "O" or above(limit.right, facts, True), "the limit may be 0")
         return
-    steady = (c.along not in k.free_symbols and defined(k, facts) for k in r.constants)
-    require(all(steady), "no constants", r.constants)
+    steady = all(c.along not in k.free_symbols and defined(k, facts) for k in r.constants)
+    require(steady and defined(c.left, facts), "no constants", r.constants)
     low, high = (r.constants[0], r.constants[-1]) if c.relation == "Theta" else (0, r.constants[0])
     require(c.relation == "O" or above(low, facts, True), "the constant may be 0")
     for bound_ in (Claim(low * c.right, "<=", c.left), Claim(c.left, "<=", high * c.right)):
@@ -329,7 +322,8 @@ def _counterexample(c: Claim, r: by.Counterexample, used: tuple[Claim, ...]) -> 
     large = tuple(h for h in there.given if c.along is not None and c.along in h.free)
     for h in large:
         grows = h.relation == "whole" or (h.relation in ("<", "<=") and h.left.is_Rational)
-        require(grows and c.along in (h.left, h.right) and not h.over, "a bound", h)
+        rises = c.along == (h.left if h.relation == "whole" else h.right)
+        require(grows and rises and not h.over, "a bound", h)
     require(all(holds(h, large, used) for h in there.given), "hypotheses fail at these values")
     require(applies(r.values, replace(c, false=False), large, used), "undefined", r.values)
     facts = facts_under(large, used)
@@ -350,6 +344,7 @@ def _counterexample(c: Claim, r: by.Counterexample, used: tuple[Claim, ...]) -> 
 
 
 def _cite(c: Claim, r: by.Cite, used: tuple[Claim, ...]) -> None:
+    require_grammar(r.axiom.claim)
     require(c == r.axiom.claim and not used, "not the cited theorem")
 
 

@@ -17,6 +17,7 @@ from .entries import (
     section6,
     section6_1,
     section6_2,
+    section6_2_axes,
     two_classes,
 )
 from .entry import Entry, Verdict, recheck
@@ -27,6 +28,7 @@ ENTRIES: tuple[Entry, ...] = (
     *section5.ENTRIES,
     *section6_1.ENTRIES,
     *section6.ENTRIES,
+    *section6_2_axes.ENTRIES,
     *section6_2.ENTRIES,
     *lines.ENTRIES,
     *appendix_a.ENTRIES,

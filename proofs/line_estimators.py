@@ -13,7 +13,9 @@ so that N lines at offsets p_j see Σ_k a_k [q_k = 0] (1/N) Σ_j cos 2πm_k·p_j
 and of f what is on the plane q = 0. On R a line of length L sees at most 1/(πνL) of a wave of
 frequency ν along it. With the spectrum of jitter across,
 
-    N P_L(m, q) = [q = 0] (1 − ∏ sinc²(m_i/n_i)),     i = 1, ..., d − 1.
+    N P_L(m, q) = [q = 0] (1 − ∏ sinc²(m_i/n_i)),     i = 1, ..., d − 1,
+
+and with that of independent points N P_L = [q = 0] at m ≠ 0.
 """
 
 from dataclasses import replace
@@ -139,7 +141,17 @@ def long_line() -> Step:
 @cache
 def jittered_lines() -> Step:
     """N P_L = [q = 0] (1 − ∏ sinc²(m_i/n_i)), offsets jittered in d dimensions across the lines."""
-    known = stratified.jitter_at_whole_frequencies()
+    return _of_lines(stratified.jitter_at_whole_frequencies())
+
+
+@cache
+def random_lines() -> Step:
+    """N P_L = [q = 0] at whole m ≠ 0, offsets independent and uniform across the lines."""
+    return _of_lines(stratified.random_at_whole_frequencies())
+
+
+def _of_lines(known: Step) -> Step:
+    """The spectrum of the offsets, times [q = 0]."""
     given = known.claim.given
     line = stratified.place(q, ONE, given)
     left, right = (

@@ -13,7 +13,8 @@ and the same of B and q follow, for n >= 2,
     correlated multi-jitter:  |N P_S| <= 4uv + 2 (u + v)/n²,
 
 the bound from below in two cases, Y up to n + 1/2 and beyond. At a = b = 1 a wave cos 2πx cos 2πy,
-Var = P_S/4, is of order N^−2 with multi-jitter, and O(N^−3) with correlated multi-jitter.
+Var = P_S/4, is of order N^−2 with multi-jitter, and O(N^−3) with correlated multi-jitter; but at
+(n, 1), on a ridge, that has N P_S = 1 + A (n²A/(n − 1) − p) >= n (1 − 2u), with a = 1 in A, p, u.
 """
 
 from dataclasses import replace
@@ -332,3 +333,31 @@ def not_the_rate_of_the_correlated() -> Step:
     claim = Claim(factor * WAVE_CORRELATED, "->", ZERO, GRID[:1], n)
     reached = Step(claim, by.Squeeze(), tuple(steps))
     return Step(replace(CORRELATED_AS_A_RATE, false=True), by.Counterexample(()), (reached,))
+
+
+_RIDGE = 1 + A * (n**2 * A / (n - 1) - p)
+RIDGE = _RIDGE.xreplace(dict(_values(ONE, ONE)))
+"""N P_S of correlated multi-jitter at (n, 1), N = n², on a ridge."""
+BOUNDED_RIDGE = Claim(RIDGE, "O", ONE, GRID[:1], n)
+"""Eq. 18 off the axes: γ/N with γ free of N."""
+
+
+@cache
+def on_a_ridge() -> Step:
+    """n − 2π²/(3n) <= N P_S, as A² >= 1 − 2u, u = π²/(3n²)."""
+    uses = (
+        (2 * n, _use(GIVEN, 1 - A, u)), (1, _use(GIVEN, A, ONE)), (A, _use(GIVEN, p, ONE)),
+    )  # fmt: skip
+    rest = A**2 * (1 + 1 / (n - 1)) + n * (1 - A) ** 2
+    lemma = combine(Claim(n - 2 * n * u, "<=", _RIDGE, GIVEN), *uses, remainder=rest)
+    return at_frequency(lemma, ONE, ONE, GRID)
+
+
+@cache
+def ridge_is_not_bounded() -> Step:
+    """N P_S → ∞."""
+    below = on_a_ridge()
+    terms = [(ONE, ONE), (-2 * size(ONE), -ONE)]
+    grows = limit_of_powers(below.claim.left, terms, n, GRID, sympy.oo)
+    reached = Step(Claim(RIDGE, "->", sympy.oo, GRID[:1], n), by.Squeeze(), (below, grows))
+    return Step(replace(BOUNDED_RIDGE, false=True), by.Counterexample(()), (reached,))

@@ -12,13 +12,20 @@ Shirley, Wang 1994): with h_x = m² sinc² f − m A_x, h_y = n² sinc² g − n
 
     N P_S = 1 + (h_x h_y + m K_x h_y + n K_y h_x)/N,
 
-and if all columns have one shuffle and all rows have one (Kensler 2013),
+which at (f, 0), f whole and not 0, is 1 − sinc²(f/N), as of a Latin hypercube; and if all columns
+have one shuffle and all rows have one (Kensler 2013),
 
     N P_S = 1 + (D_m D_n K_x K_y + m K_x D_n B' + n K_y D_m A')/N,    D_m = m² [m divides f] − m,
 
-where [m divides f] = (1/m²) ΣΣ cos 2πf (j − k)/m.
+where [m divides f] = (1/m²) ΣΣ cos 2πf (j − k)/m. At f = mj, where it is 1, and g that n does not
+divide, this is a ridge,
+
+    N P_S = 1 + sinc²(j/n) [N sinc²(g/n)/(n − 1) − sinc²(g/N)],
+
+for m = n, j = g = 1 at least n − 2π²/(3n).
 """
 
+from dataclasses import replace
 from functools import cache
 
 from ..theory.symbolic import Expr, sympy
@@ -27,10 +34,11 @@ from .claims import Claim
 from .kernel import Step
 from .strata import all_pairs, blur, blurred_pairs, pi, sin, sinc2, theta, waves
 from .strata import r as size_
-from .stratified_spectra import INDEX, along_axes, at_axis, d, i, pairs_of, place
+from .stratified_spectra import INDEX, all_in_step, along_axes, at_axis, d, i, pairs_of, place
+from .stratified_spectra import m as tooth
 from .tactics import ONE, ZERO, combine, real, whole
 
-s, r, f, g, m, n, z = real("s r f g m n z")
+s, r, f, g, m, n, z, j = real("s r f g m n z h")
 _PARTS = real("K_x K_y a b")
 _WAVES = (sympy.Function("X"), sympy.Function("Y"))
 TWO = sympy.Integer(2)
@@ -121,6 +129,20 @@ def columns_and_rows() -> Step:
     )  # fmt: skip
 
 
+@cache
+def on_an_axis() -> Step:
+    """Multi-jitter of m columns and n rows at (f, 0), f whole and not 0: 1 − sinc²(f/N)."""
+    given = (*COUNTS, *whole(f), Claim(f, "!=", ZERO))
+    found = columns_and_rows()
+    moved = replace(found.claim.at((g, ZERO)), given=given)
+    known = tuple(step for _, step in above_one(m, n, given=given))
+    there = Step(moved, by.Instance(((g, ZERO),)), (found, *known))
+    none = combine(Claim(sinc2(f), "=", ZERO, given))
+    claim = Claim(moved.left, "=", 1 - sinc2(f / N), given)
+    slope = (n**2 - n + n) * m**2 / N
+    return combine(claim, (1, there), (slope, none), *above_one(m, n, given=given))
+
+
 def apart(frequency: Expr, levels: Expr) -> Expr:
     """D: waves of all ordered pairs of different strata, not blurred."""
     return waves(2 * pi * frequency / levels, levels) - levels
@@ -202,3 +224,48 @@ def correlated_between_teeth() -> Step:
     left = Step(claim, by.Instance(values), (_without_waves(), *none, *known))
     whole_ = Claim(found.claim.left, "=", claim.right, given)
     return combine(whole_, (1, found), (1, left), *above_one(m, n, given=given))
+
+
+_PEAK = sympy.Function("Z")
+_WIDE = real("B")[0]
+
+
+def _ridge() -> Step:
+    """N P_S where Σ over pairs of columns is m², that of rows 0, and sinc² j is 0."""
+    known = zip((*_WAVES, _PEAK), (m**2, ZERO, ZERO), strict=True)
+    told = tuple(Claim(w(z), "=", v, over=(z,)) for w, v in known)
+    given = (*COUNTS, *told)
+    at = [
+        Step(Claim(h.left.xreplace({z: ZERO}), "=", h.right, given), by.Instance(((z, ZERO),)),
+             (Step(replace(h, given=given, over=()), by.Given()),))
+        for h in told
+    ]  # fmt: skip
+    (x, y, peak), (_, _, fine_x, fine_y) = (h.claim.left for h in at), _PARTS
+    kx, ky = (n * peak - fine_x) / (n - 1), (m * _WIDE - fine_y) / (m - 1)
+    right = 1 + fine_x * (N * _WIDE / (n - 1) - fine_y)
+    in_x = -(kx * ky - ky * fine_x) / m
+    in_y = ((x - m) * kx * ky + m * kx * fine_y) / N
+    in_peak = -((m - 1) * ky + fine_y) * n / (n - 1)
+    claim = Claim(_joined(kx, ky, x, y, fine_x, fine_y), "=", right, given)
+    return combine(claim, (in_x, at[0]), (in_y, at[1]), (in_peak, at[2]))
+
+
+@cache
+def correlated_on_a_ridge() -> Step:
+    """At f = mj, j whole and not 0, where n does not divide g."""
+    given = (*COUNTS, *whole(j), Claim(j, "!=", ZERO), *off_teeth(g, n))
+    found, known = correlated(), tuple(step for _, step in above_one(m, n, given=given))
+    there = Step(replace(found.claim.at((f, m * j)), given=given), by.Instance(((f, m * j),)),
+                 (found, *known))  # fmt: skip
+    at = ((tooth, j), (size_, m))
+    moved = all_in_step().claim.at(*at)
+    every = Step(Claim(moved.left, "=", moved.right, given), by.Instance(at), (all_in_step(),))
+    sums = every, no_waves(g, n, given), combine(Claim(sinc2(j), "=", ZERO, given))
+    values = (
+        *zip(_PARTS[2:], (sinc2(j / n), sinc2(g / N)), strict=True), (_WIDE, sinc2(g / n)),
+        *((w, sympy.Lambda(z, u.claim.left)) for w, u in zip((*_WAVES, _PEAK), sums, strict=True)),
+    )  # fmt: skip
+    own = _ridge().claim.at(*values)
+    left = Step(replace(own, given=given), by.Instance(values), (_ridge(), *sums, *known))
+    claim = Claim(there.claim.left, "=", own.right, given)
+    return combine(claim, (1, there), (1, left), *above_one(m, n, given=given))

@@ -123,18 +123,39 @@ PROJECTIVE = _projective()
 """A denser projection, N_k = N^e, improves the rate of Poisson disks to 1 + e."""
 
 
+def _flat_lines() -> Claim:
+    found = sums.flat(0).share
+    given = (*sums.flat(0).closed.claim.given, Claim(TWO, "<=", d))
+    return Claim(found, "O", N ** (-d / (d - 1)), given, N)
+
+
+FLAT_LINES = _flat_lines()
+"""Eq. 27, first row, for lines of a flat profile, b = 0."""
+
+
 @cache
 def no_faster() -> Step:
     """N^(1+e) V → ∞ at e = 1 and ones."""
+    return _not_as_fast(PROJECTIVE, (e, ONE))
+
+
+@cache
+def flat_lines_are_slower() -> Step:
+    """N^(d/(d−1)) V → ∞ at d = 2 and ones."""
+    return _not_as_fast(FLAT_LINES, (d, TWO))
+
+
+def _not_as_fast(printed: Claim, value: tuple[Expr, Expr]) -> Step:
+    """Of a flat region, an order below N^−1 denied at this value and ones."""
     region = sums.flat(0)
     p = sums.parameters(0)
     values = tuple((x, ONE) for x in (p.gamma, p.alpha, p.s, p.rho0, p.c, p.c2))
     found = region.closed
     given = sums.LARGE
     moved = Step(replace(found.claim.at(*values), given=given), by.Instance(values), (found,))
-    factor, constant = N**2, region.terms[0][0].xreplace(dict(values))
+    factor, constant = 1 / printed.at(value).right, region.terms[0][0].xreplace(dict(values))
     claim = Claim(factor * moved.claim.right, "->", sympy.oo, given, N)
     limit = Step(claim, by.Limit(((constant, ZERO, ONE, 0),)))
     reached = sums.transferred(moved, limit, factor)
-    point = by.Counterexample((*values, (e, ONE)))
-    return Step(replace(PROJECTIVE, false=True), point, (reached,))
+    point = by.Counterexample((*values, value))
+    return Step(replace(printed, false=True), point, (reached,))

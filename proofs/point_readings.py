@@ -1,8 +1,8 @@
 """What is printed of point estimators and fails at numbers, and what holds in its place.
 
-A shift of all points turns F_S(m) and keeps |F_S(m)|; unnormalised sums Σ_j exp(−2πi m·s_j) need
-1/N² in the variance; independent points in the unit cube have N P_S = 1 at whole ν ≠ 0 only; what a
-variance needs is P_S bounded and f square integrable,
+A shift of all points turns F_S(m) and keeps |F_S(m)|, 1 for one point; unnormalised sums
+Σ_j exp(−2πi m·s_j) need 1/N² in the variance; independent points in the unit cube have N P_S = 1
+at whole ν ≠ 0 only; what a variance needs is P_S bounded and f square integrable,
 
     Σ_k P_S(k) P_f(k) <= (γ/N) Σ_k P_f(k)      for P_S <= γ/N,
 
@@ -25,7 +25,7 @@ from .strata import blur, cos, half, nu, pi, sin, sinc2, sizes, uniform_place
 from .tactics import ONE, ZERO, combine, limit_of_powers, positive, real, transferred, whole
 from .variance import HERE, POINTS, over, over_shifts, power
 
-x, h, r, m, psi = real("x h r m psi")
+x, h, r, m, psi, u = real("x h r m psi u")
 spectrum, integrand = sympy.Function("P"), sympy.Function("f")
 TWO = sympy.Integer(2)
 
@@ -44,6 +44,33 @@ def shift_keeps_power() -> Step:
     left = sympy.Add(*(u.claim.left**2 for _, u in uses))
     right = sympy.Add(*(s**2 for s in sums))
     return combine(Claim(left, "=", right, given), *uses)
+
+
+def _turned(f: Expr) -> Expr:
+    return total(f(alpha(k) + 2 * pi * u), k)
+
+
+IN_THE_DISC = Claim(
+    sympy.Integral(sympy.Add(*(_turned(f) ** 2 for f in (cos, sin))) / count**2, (u, 0, 1)), "=",
+    half, sizes(count),
+)  # fmt: skip
+"""The mean of |F_S(m)|² over shifts is that of a uniform place in the unit disc."""
+
+
+@cache
+def on_the_circle() -> Step:
+    """One point has |F_S| = 1 at every shift."""
+    values = ((count, ONE), (alpha, sympy.Lambda(k, ZERO)))
+    there = IN_THE_DISC.at(*values)
+    sums = [sympy.Sum(f(2 * pi * u), (k, 1, 1)) for f in (cos, sin)]
+    terms = [Step(Claim(s, "=", s.function), by.Range()) for s in sums]
+    uses = ((s + s.function, step) for s, step in zip(sums, terms, strict=True))
+    square = combine(Claim(there.left.function, "=", ONE), *uses)
+    one = sympy.Integral(ONE, (u, 0, 1))
+    size = Step(Claim(one, "=", ONE), by.Antiderivative(u))
+    mean = Step(Claim(there.left, "=", one), by.Bind(), (square, size))
+    more = combine(Claim(half, "<", there.left), (-1, mean), (-1, size), remainder=half)
+    return Step(replace(IN_THE_DISC, false=True), by.Counterexample(values), (more,))
 
 
 def _unnormalised() -> Claim:

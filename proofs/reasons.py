@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from ..theory.symbolic import Expr, Symbol, sympy
-from .claims import Axiom
+from .claims import Axiom, Claim
 
 
 @dataclass(frozen=True)
@@ -143,3 +143,12 @@ Reason: TypeAlias = (
     | Induction | Split | Instance | Limit | Squeeze | Eventually | Order
     | Counterexample | Cite | Admit
 )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A claim, the reason for it, and the steps that the reason uses, in its order."""
+
+    claim: Claim
+    reason: Reason
+    uses: tuple["Step", ...] = ()

@@ -182,6 +182,48 @@ def uncorrelated_jitter() -> Step:
     return combine(Claim(left, "=", right, given), (N - 1, blocks))
 
 
+@cache
+def blocks_of_one_axis() -> Step:
+    """Uncorrelated jitter with blocks of one axis, N strata each: a Latin hypercube."""
+    given = (*whole(N), Claim(TWO, "<=", N), *sizes(d))
+    inside = (*given, *_BLOCK)
+    values = (
+        (counts, sympy.Lambda(i, N)), (first, sympy.Lambda(B, B - 1)),
+        (extent, sympy.Lambda(B, ONE)), (R, d),
+    )  # fmt: skip
+    found = uncorrelated_jitter()
+    moved = found.claim.at(*values)
+    left = Step(replace(moved, given=given), by.Instance(values), (found, *_single(given)))
+    axis = at_axis(B)
+    parts = [Step(Claim(_alone(term), "=", term.xreplace({i: B}), inside), by.Range())
+             for term in (sinc2(at_axis(i)), sinc2(at_axis(i) / N))]  # fmt: skip
+    share = (N * parts[0].claim.left - parts[1].claim.left) / (N - 1)
+    alone = (N * sinc2(axis) - sinc2(axis / N)) / (N - 1)
+    scale = 1 / (N - 1)
+    one = combine(Claim(share, "=", alone, inside), (scale * N, parts[0]), (-scale, parts[1]))
+    sides = [sympy.Product(side, (B, 1, d)) for side in (share, alone)]
+    axes = Step(Claim(sides[0], "=", sides[1], given), by.Bind(), (one,))
+    claim = Claim(moved.left, "=", 1 + (N - 1) * sides[1], given)
+    return combine(claim, (1, left), (N - 1, axes))
+
+
+def _single(given: tuple[Claim, ...]) -> tuple[Step, ...]:
+    """What ``uncorrelated_jitter`` asks of counts and blocks: of N, of B − 1 and of 1."""
+    x, index, inside = strata.theta, (*given, *INDEX), (*given, *_BLOCK)
+    itself = Step(Claim(x, "whole", ZERO, whole(x)), by.Given())
+    numbers = ((N, ONE, index), (B - 1, ZERO, inside), (ONE, ZERO, inside))
+    steps: list[Step] = []
+    for value, least, here in numbers:
+        steps.append(Step(Claim(value, "whole", ZERO, here), by.Instance(((x, value),)), (itself,)))
+        steps.append(combine(Claim(least, "<=", value, here), remainder=value - least))
+    return tuple(steps)
+
+
+def _alone(term: Expr) -> Expr:
+    """∏ over the one axis of block B."""
+    return sympy.Product(term, (i, B, B))
+
+
 def _in_block(axis: Step, given: tuple[Claim, ...], here: tuple[Step, ...]) -> Step:
     sides = [block(side) for side in _sides(axis)]
     low, high = first(B) + 1, first(B) + extent(B)
@@ -287,9 +329,8 @@ def _grid_is_defined() -> Step:
 
 
 @cache
-def grid_on_teeth() -> Step:
-    """P_S = 1 where every n_i divides m_i = n_i k_i."""
-    inside = (*STRATA, _WHOLE, *INDEX)
+def all_in_step() -> Step:
+    """Σ_k Σ_j cos 2πm (j − k) = r² over r strata, for whole m."""
     number, j, k = strata.r, strata.j, strata.k
     single = (*sizes(number), *whole(m))
     near = (*single, *whole(j, k))
@@ -299,10 +340,17 @@ def grid_on_teeth() -> Step:
     line = Step(Claim(sums[0], "=", sums[1], outer), by.Bind(), (wave,))
     total = waves(2 * pi * m, number)
     lines = Step(Claim(total, "=", strata.ones().claim.left, single), by.Bind(), (line,))
+    return combine(Claim(total, "=", number**2, single), (1, lines), (1, strata.ones()))
+
+
+@cache
+def grid_on_teeth() -> Step:
+    """P_S = 1 where every n_i divides m_i = n_i k_i."""
+    inside = (*STRATA, _WHOLE, *INDEX)
+    number, full = strata.r, all_in_step()
     size = combine(
-        Claim(total / number**2, "=", ONE, single),
-        (number**-2, lines), (number**-2, strata.ones()),
-    )  # fmt: skip
+        Claim(full.claim.left / number**2, "=", ONE, full.claim.given), (number**-2, full)
+    )
     here = (*said((*STRATA, _WHOLE), inside), count_is_positive())
     values = ((m, at_axis(i)), (number, counts(i)))
     moved = size.claim.at(*values)

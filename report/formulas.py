@@ -156,7 +156,7 @@ def _is_negative(e: Expr) -> bool:
 
 
 def _sum(e: Expr, flat: bool) -> Formula:
-    terms = sorted(e.as_ordered_terms(), key=_is_open)
+    terms = sorted(_in_order(e), key=_is_open)
     closed = [t for t in terms if not _is_open(t)]
     numbers = [t for t in closed if t.is_Rational]
     leads = (*(t for t in closed or terms if not _is_negative(t)), *numbers, terms[0])
@@ -171,6 +171,14 @@ def _sum(e: Expr, flat: bool) -> Formula:
         size = term(-t if negative else t, flat)
         parts += [Word("−" if negative else "+", "binary"), size]
     return row(*parts)
+
+
+def _in_order(e: Expr) -> list[Expr]:
+    """Terms in SymPy's order, which alone would work out each Σ, Π and ∫ that is a number."""
+    numbers = sorted((b for b in e.atoms(*_LARGE) if not b.free_symbols), key=str)
+    letters = {b: sympy.Symbol(f"~{k}") for k, b in enumerate(numbers)}
+    back = {letter: b for b, letter in letters.items()}
+    return [t.xreplace(back) for t in e.xreplace(letters).as_ordered_terms()]
 
 
 def _divides(e: Expr) -> bool:

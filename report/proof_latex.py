@@ -50,10 +50,15 @@ _HEAD = r"""\documentclass[10pt,a4paper]{article}
 \maketitle
 """
 
-_ABOUT = r"""Every numbered equation of G.~Singh and W.~Jarosz, \emph{Convergence Analysis for
-Anisotropic Monte Carlo Sampling Spectra} (technical report TR2016-816), is stated here as it was
-printed and as it holds, with a proof that a small program has checked step by step: it accepts a
-step only if the reason given for it is one of a closed list of rules, and can be carried out.
+_ABOUT = r"""This goes through the numbered equations and the claims of the text of G.~Singh and
+W.~Jarosz, \emph{Monte Carlo Convergence Analysis for Anisotropic Sampling Power Spectra} (Dartmouth
+TR2016-816); quotations may be shortened. The line \emph{Holds} is what is proved, in steps that a
+small program accepts only if the reason given is one of a closed list of rules and can be carried
+out. Of an estimator it is proved for the sum or integral that the line writes down: that this is
+a sampler's spectrum is shown by the entries named \emph{kernel} only, and a rate with a profile
+$\gamma/N$ in it is one in the model of Eqs.~16-18, which its entry says. What is argued besides,
+and how a quotation is read, stands in the notes.
+
 A step is told under the hypotheses of its statement; where it needs others they are named before
 it; what an earlier entry has shown is not shown again, and its numbers are left out. Steps in
 small print only read something off. Numbers in brackets are steps of the same proof;

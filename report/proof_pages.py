@@ -21,6 +21,7 @@ from .proof_formats import STATUSES, cited, heading, part_of_paper, word
 from .proof_reading import Passage, Reading, proof_parts, read, runs, without_repeats
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+_TITLE = "Monte Carlo Convergence Analysis for Anisotropic Sampling Power Spectra"
 _FEW = 3  # entries whose proofs are shown unfolded
 
 _RULES = """\
@@ -73,10 +74,14 @@ def _header(found: Rechecks) -> Html:
         element("h1", "The paper, checked"),
         element(
             "p",
-            "Each equation of G. Singh and W. Jarosz, ",
-            element("i", "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"),
-            " (technical report TR2016-816), as it was printed and as it holds, with a proof that "
-            "a small kernel has checked step by step.",
+            "The numbered equations and the claims of the text of G. Singh and W. Jarosz, ",
+            element("i", _TITLE),
+            " (Dartmouth TR2016-816); quotations may be shortened. The line Holds is what is "
+            "proved, and a small kernel has checked it step by step. Of an estimator it is proved "
+            "for the sum or integral that the line writes down: that this is a sampler's spectrum "
+            "is shown by the entries named kernel only, and a rate with a profile γ/N in it is one "
+            "in the model of Eqs. 16-18, which its entry says. What is argued besides, and how a "
+            "quotation is read, stands in the notes.",
         ),
         element("p", *_counts(found), class_=f"verdict {'good' if found.is_accepted else 'bad'}"),
         element(

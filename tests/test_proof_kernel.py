@@ -30,6 +30,9 @@ def accepted(claim: Claim, reason: by.Reason, *uses: Step) -> Step:
 def test_theorems_are_made_by_check_alone() -> None:
     with pytest.raises(Refused):
         Theorem(Claim(ONE, "=", ZERO), frozenset(), frozenset(), object())
+    true = check(combine(Claim(ZERO, "<=", ONE), remainder=1))
+    with pytest.raises(ValueError, match="seal"):
+        replace(true, claim=Claim(ONE, "<=", ZERO))
 
 
 def test_algebra_needs_its_denominators() -> None:

@@ -110,4 +110,4 @@ def _lines_of_code(path: Path) -> int:
 
 def test_the_rules_stay_small() -> None:
     assert _lines_of_code(_FOLDER / "kernel.py") < 300
-    assert sum(_lines_of_code(_FOLDER / f"{name}.py") for name in _TRUSTED) < 760
+    assert sum(_lines_of_code(_FOLDER / f"{name}.py") for name in _TRUSTED) < 800

@@ -10,8 +10,15 @@ from ..entry import Entry
 from ..kernel import Step
 from ..tactics import ONE
 
-_SCALE = "The argument must be ν_i/N^(1/d): at whole frequencies the printed row is white noise."
-_BOUND = "A bound, and no equality; the range is ρ < α N^(1/d), γ = 1, α = √3/π, b = 2."
+_SCALE = (
+    "The argument must be m_i/n_i, m_i/N^(1/d) for equal strata: at whole frequencies the printed "
+    "row is white noise. Denied as 5, on an axis, at N = 2, m = 1. Appendix A normalises the "
+    "frequencies ν_i with N^(1/d) just before; with ν_i read so, the row holds for equal strata."
+)
+_BOUND = (
+    "A bound, and no equality, denied alike in 33, 34 and 36; γ = 1, α = √3/π, b = 2. The range is "
+    "one of ρ."
+)
 _LOW = "A rate needs the bound from below."
 
 

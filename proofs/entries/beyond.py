@@ -4,6 +4,7 @@ from functools import partial
 
 from .. import radial
 from ..entry import Entry
+from ..model import NOTE
 
 _SOURCE = "Eqs. 16-18, one region, s for d"
 
@@ -16,6 +17,7 @@ def _rate(case: radial.Case, title: str) -> Entry:
         status="proved",
         holds=radial.rate(case).claim,
         proof=partial(radial.rate, case),
+        notes=NOTE.strip(),
     )
 
 
@@ -27,6 +29,7 @@ def _order(case: radial.Case, title: str) -> Entry:
         status="proved",
         holds=radial.order(case).claim,
         proof=partial(radial.order, case),
+        notes=NOTE.strip(),
     )
 
 

@@ -83,6 +83,13 @@ ENTRIES = (
         "∏_B n_i cells; two points lie in each block in two different cells.",
     ),
     _kernel(
+        "Latin hypercube, as uncorrelated jitter",
+        "blocks of one axis, n_i = N: N P_S = 1 + (N − 1) ∏_B (N sinc² ν_B − sinc²(ν_B/N))/(N − 1)",
+        stratified.blocks_of_one_axis,
+        "Section 6.2, uncorrelated jitter: a Latin hypercube as its special case",
+        "The kernel of uncorrelated jitter at first(B) = B − 1, size(B) = 1, n_i = N.",
+    ),
+    _kernel(
         "multi-jitter",
         "N P_S = 1 + N ∏ (sinc² ν_i + (K_i − A_i)/s) − ∏ K_i, N = s^d",
         multi_jitter.in_d_dimensions,
@@ -109,5 +116,12 @@ ENTRIES = (
         multi_jitter.correlated_between_teeth,
         "Section 6.2; Kensler 2013",
         "Where m does not divide f and n does not divide g.",
+    ),
+    _kernel(
+        "correlated multi-jitter, on a ridge",
+        "N P_S = 1 + sinc²(j/n) [N sinc²(g/n)/(n − 1) − sinc²(g/N)] at f = mj, j ≠ 0",
+        multi_jitter.correlated_on_a_ridge,
+        "Section 6.2; Kensler 2013",
+        "Where n does not divide g; h stands for j. About n at (n, 1) for m = n.",
     ),
 )

@@ -4,11 +4,12 @@ from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import Expr, sympy
-from .. import best_case, directions, flats, radial, segments
+from .. import best_case, directions, flats, point_rates, radial, segments, sphere_means
 from ..claims import Claim
 from ..entry import Entry
 from ..flats import FLATS, SCALES, d, k
 from ..kernel import Step
+from ..model import IN_MODEL
 from ..radial import b
 from ..segments import u
 from ..tactics import ONE
@@ -43,7 +44,7 @@ def _flats(case: radial.Case, power: Expr) -> _Proof:
 
 
 def _segments(case: radial.Case, power: Expr) -> _Proof:
-    return partial(flats.order, case, d, _TWO, (Claim(ONE, "<=", d),), 1 + power / d)
+    return partial(flats.order, case, d, _TWO, _IN_SPACE, 1 + power / d)
 
 
 _SLOW = flats.worst_case("b<q", (*SCALES, *_IN_SPACE))
@@ -59,39 +60,51 @@ _POINTS = tuple(c for c in SCALES if c.right != b)
 
 _RATES = (
     _proved(
-        "27, worst case, b > 1", "lines and a jump: V = Θ(N^(−d/(d−1)))", _LINES,
-        _lines("b>q", d / (d - 1)), "As printed, and from below too, where b > 1.",
+        "27, worst case, b > 1", f"lines and a jump, {IN_MODEL}: V = Θ(N^(−d/(d−1)))", _LINES,
+        _lines("b>q", d / (d - 1)),
+        "As printed, and from below too, where b > 1. It is the rate of points in d − 1 "
+        "dimensions, and not, as the text has it, in the d-dimensional domain. A jump that lines "
+        "leave has q = 1: no entry proves a decay after lines.",
     ),
     _corrected(
-        "27, worst case, b < 1", "lines and a jump: V = Θ(N^(−1−b/(d−1)))", _LINES,
+        "27, worst case, b < 1", f"lines and a jump, {IN_MODEL}: V = Θ(N^(−1−b/(d−1)))", _LINES,
         _lines("b<q", 1 + b / (d - 1)),
         partial(flats.denied, _SLOW, "b<q", _THREE_HALVES, *_AT_HALF), _SLOW, _ROW,
-        "The row ignores b: at d = 3, b = 1/2 the order is N^(−5/4), above N^(−3/2).",
+        "0 < b < 1. The row ignores b: at d = 3, b = 1/2 the order is N^(−5/4), above N^(−3/2).",
     ),
     _corrected(
-        "27, worst case, b = 1", "lines and a jump: V = Θ(N^(−d/(d−1)) log N)", _LINES,
+        "27, worst case, b = 0", f"lines of a flat profile, {IN_MODEL}: V = Θ(N^−1)", _LINES,
+        point_rates.flat_order, point_rates.flat_lines_are_slower, point_rates.FLAT_LINES, _ROW,
+        "Poisson disks have b = 0. At d = 2 the row says N^−2. The second row is right at b = 0.",
+    ),
+    _corrected(
+        "27, worst case, b = 1", f"lines and a jump, {IN_MODEL}: V = Θ(N^(−d/(d−1)) log N)", _LINES,
         _lines("b=q", d / (d - 1)),
         partial(flats.denied, _TIE, "b=q", _THREE_HALVES, *_AT_1), _TIE, _ROW,
         "At b = q = 1 a logarithm appears.",
     ),
     _proved(
-        "27, best case", "lines and a smooth integrand: V = Θ(N^(−(b+d−1)/(d−1)))",
+        "27, best case",
+        f"lines and a smooth integrand, {IN_MODEL}: V = Θ(N^(−(b+d−1)/(d−1)))",
         "Section 6.3, Eq. 27, second row", best_case.best_order_of_lines,
-        "As printed, and from below too.",
+        "As printed, b > 0, and from below too.",
     ),
     _corrected(
-        "7.2, disk", "lines through a disk, b = 2: V = Θ(N^−3 log N)", _TEXT,
+        "7.2, disk", f"lines through a disk, b = 2, {IN_MODEL}: V = Θ(N^−3 log N)", _TEXT,
         partial(flats.order, "b=q", ONE, _TWO, _POINTS, sympy.Integer(3)),
         partial(flats.denied, _DISK, "b=q", _SLOPE, *_ON_DISK), _DISK,
-        "Var = O(N^−2.85), as a rate",
-        "On one dimension the disk keeps ρ^−3, q = 2 = b; −2.85 is a local slope of N^−3 log N.",
+        "multi-jitter line samples exhibit an improved convergence rate of O(N^−2.85)",
+        "Read as a rate. On one dimension the disk keeps ρ^−3, which is not proved here: q = 2 = "
+        "b; −2.85 is a local slope of N^−3 log N. Of jitter itself and |f^(m)|² = m^−3: Table 1, "
+        "tie.",
     ),
     _corrected(
-        "7.2, sphere", "jittered lines through a ball, b = 2: V = Θ(N^−2 log N)", _TEXT,
+        "7.2, sphere", f"lines through a ball, b = 2, {IN_MODEL}: V = Θ(N^−2 log N)", _TEXT,
         partial(flats.order, "b=q", _TWO, _TWO, _POINTS, _TWO),
         partial(flats.denied, _SPHERE, "b=q", _THREE_HALVES, *_ON_SPHERE), _SPHERE,
-        "Var = O(N^(−3/2)) for the sphere as the worst case of Eq. 27, as a rate",
-        "Lines integrate the jump away: q = 2 on two dimensions; the ball is no worst case.",
+        "a binary sphere function in 3D ... worst case; Var < O(N^(−d/(d−1))) worst-case",
+        "Read as a rate, N^(−3/2). Lines integrate the jump away: on two dimensions the ball keeps "
+        "ρ^−4, which is not proved here, q = 2; the ball is no worst case of lines.",
     ),
 )  # fmt: skip
 
@@ -103,14 +116,18 @@ _DIRECTIONS = (
     _corrected(
         "7.2, n-rooks", "n-rooks lines in the plane and a wave: V = Θ(N^−3)", _TEXT,
         directions.parallel_order, directions.rooks_denied, directions.ROOKS,
-        "N-rooks give O(N^−1) in 2D and 3D, as a rate",
-        "Offsets of lines in the plane have one dimension; 1/N holds for 2D points and 3D lines.",
+        "N-rooks, however, give a convergence rate of O(N^−1) in 2D and 3D",
+        "Read as a rate. Of the sampler itself. Offsets of lines in the plane have one dimension; "
+        "1/N holds for 2D points and 3D lines.",
     ),
     _corrected(
         "footnote 4", "two directions of fixed weights: the worse of the two rates",
         "Section 6.3, footnote 4", directions.fixed_weights, directions.better_of_two,
-        directions.WORSE_OF_TWO, "the convergence rate will be the worse of the two",
-        "With weights by inverse variance, which depend on N, it is the better of the two.",
+        directions.WORSE_OF_TWO,
+        "their variance is additive, and therefore the convergence rate will be the worse of the "
+        "two",
+        "Read as a rate, of all weights. With weights by inverse variance, which depend on N, it "
+        "is the better of the two.",
     ),
     _proved(
         "weights", "no weights do better than V₁V₂/(V₁ + V₂)", "Section 6.3, footnote 4",
@@ -167,8 +184,17 @@ _SEGMENTS = (
         segments.line_of_a_wave,
     ),
     _proved(
-        "segments, mean", "the mean of sinc²(lρt) over the sphere is at most 2/(πlρ)", "Section 8",
-        segments.sphere_mean, "One power of ρ more: ρ^(−d−1) becomes ρ^(−d−2), q = 2.",
+        "segments, mean", "the mean of sinc²(lρt) over the sphere, d = 3: at most 2/(πlρ)",
+        "Section 8", segments.sphere_mean,
+        "t, the cosine to the segment, is uniform for d = 3 alone. One power of ρ more: a decay "
+        "ρ^(−d−1) becomes ρ^(−d−2), q = 2.",
+    ),
+    _proved(
+        "segments, mean in d dimensions",
+        "the mean over the sphere: ∫ cos^(d−2) θ sinc²(lρ sin θ) dθ <= 4/(πlρ), θ < π/2, d >= 2",
+        "Section 8", sphere_means.in_every_dimension,
+        "cos^(d−2) θ is in proportion to the density of the latitude θ over the plane across the "
+        "segment; its integral is free of ρ. One power of ρ more for isotropic spectra, q = 2.",
     ),
 )  # fmt: skip
 
@@ -180,7 +206,11 @@ def _beyond(
 ) -> tuple[Entry, ...]:
     return tuple(
         _proved(
-            f"{what}, {case}", f"{what} of a curved body: V = Θ({order})", section, proof, notes
+            f"{what}, {case}",
+            f"{what} of a curved body, {IN_MODEL}: V = Θ({order})",
+            section,
+            proof,
+            notes,
         )
         for case, order, proof in proofs
     )
@@ -188,13 +218,17 @@ def _beyond(
 
 BEYOND = (
     *_beyond(
-        "flats", "beyond Section 6.3", "q = k + 1 on d − k dimensions; k = 0 are points.",
+        "flats", "beyond Section 6.3",
+        "q = k + 1 on d − k dimensions, if the body decays as ρ^(−d−1), which is not proved here; "
+        "k = 0 are points.",
         ("b>q", "N^(−1−(k+1)/(d−k))", _flats("b>q", k + 1)),
         ("b=q", "N^(−1−(k+1)/(d−k)) log N", _flats("b=q", k + 1)),
         ("b<q", "N^(−1−b/(d−k))", _flats("b<q", b)),
     ),
     *_beyond(
-        "segments", "beyond Section 8", "q = 2 on d dimensions, against 1 of points.",
+        "segments", "beyond Section 8",
+        "q = 2 on d >= 2 dimensions, against 1 of points: by the mean of sinc² (segments, mean in "
+        "d dimensions), if the body decays as ρ^(−d−1), which is not proved here.",
         ("b>q", "N^(−1−2/d)", _segments("b>q", _TWO)),
         ("b=q", "N^(−1−2/d) log N", _segments("b=q", _TWO)),
         ("b<q", "N^(−1−b/d)", _segments("b<q", b)),

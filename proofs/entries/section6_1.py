@@ -4,6 +4,7 @@ from functools import partial
 
 from .. import axis_terms, classes, integrand_rows, jitter_bounds, profile_limits, radial
 from ..entry import Entry
+from ..model import NOTE
 
 
 def _closed(case: radial.Case, form: str) -> Entry:
@@ -15,7 +16,8 @@ def _closed(case: radial.Case, form: str) -> Entry:
         holds=radial.closed_form(case).claim,
         proof=partial(radial.closed_form, case),
         as_printed="Σ_k [∫_0^ν ... + ∫_ν^∞ ... dρ",
-        notes="One region, s for d; printed without the closing bracket and Δn_k; needs ρ0 <= ν.",
+        notes=NOTE + "One region, s for d, ρ0 <= ν. What is wrong is notation, and nothing is "
+        "denied: the closing bracket and Δn_k are not printed.",
     )
 
 
@@ -30,7 +32,8 @@ ENTRIES = (
         printed=integrand_rows.ROWS,
         as_printed="P_f = c_f below ρ0, c_f ρ^(−d−1) beyond",
         refutation=integrand_rows.rows_do_not_meet,
-        notes="The second row is c_f (ρ/ρ0)^(−d−1): both sides then scale alike with ρ and ρ0.",
+        notes="The second row is c_f (ρ/ρ0)^(−d−1): both sides then scale alike with ρ and ρ0. "
+        "That a body decays so is proved of an interval; no entry proves it of a ball for d >= 2.",
     ),
     Entry(
         number="16, an interval",
@@ -39,7 +42,7 @@ ENTRIES = (
         status="proved",
         holds=integrand_rows.interval_decay().claim,
         proof=integrand_rows.interval_decay,
-        as_printed="power falls off as ρ^(−(d+1))",
+        as_printed="the power fall-off of the order O(ρ^−(d+1))",
     ),
     Entry(
         number="16, along each direction",
@@ -49,9 +52,11 @@ ENTRIES = (
         holds=integrand_rows.square_along_an_axis().claim,
         proof=integrand_rows.square_along_an_axis,
         printed=integrand_rows.SQUARE_ALONG_AN_AXIS,
-        as_printed="along each direction P_f = O(ρ^(−d−1))",
+        as_printed="power spectra P_f(ρn_k), along each direction n_k, to have the form ... "
+        "c_f ρ^(−d−1)",
         refutation=integrand_rows.square_decays_slower,
-        notes="The decay d + 1 is that of the mean over a sphere of directions.",
+        notes="The decay d + 1 is that of the mean over a sphere of directions (Brandolini, "
+        "Hofmann, Iosevich 2003), which is not proved here.",
     ),
     _closed("b>q", "b > q"),
     _closed("b=q", "b = q"),
@@ -63,7 +68,8 @@ ENTRIES = (
         status="proved",
         holds=axis_terms.before_rho0().claim,
         proof=axis_terms.before_rho0,
-        notes="The paper's rates begin where ρ0 <= αN_k; before, there is no decay beyond 1/N.",
+        notes=NOTE + "The paper's rates begin where ρ0 <= αN_k; before, there is no decay beyond "
+        "1/N.",
     ),
     Entry(
         number="18, from below",
@@ -83,16 +89,6 @@ ENTRIES = (
         proof=jitter_bounds.jitter_at_most_one,
     ),
     Entry(
-        number="18, as an equality",
-        title="jitter is not equal to its monomial",
-        source="Section 6.1, Eq. 18",
-        status="refuted",
-        printed=profile_limits.AS_EQUALITY,
-        as_printed="⟨P_S⟩ = (γ_k/N) (ρ/(α_k N_k))^b_k",
-        refutation=profile_limits.below_its_monomial,
-        notes="A bound, from which only O(·) follows; rates need a bound from below too.",
-    ),
-    Entry(
         number="18, any spectrum",
         title="the profile does not bound a regular grid: power 1 at m = N",
         source="Section 6.1, after Eq. 18",
@@ -100,7 +96,7 @@ ENTRIES = (
         holds=profile_limits.comb().claim,
         proof=profile_limits.comb,
         printed=profile_limits.COMB,
-        as_printed="applicable to samples with arbitrary power spectra",
+        as_printed="applicable to both the point and line samples with arbitrary power spectra",
         refutation=profile_limits.comb_is_not_bounded,
         notes="γ is free of N; the peaks of grids and lattices are not below any γ/N.",
     ),
@@ -111,7 +107,8 @@ ENTRIES = (
         status="proved",
         holds=classes.from_above().claim,
         proof=classes.from_above,
-        as_printed="the summand with the worst rate dominates the overall rate",
+        as_printed="the summand ... showing the worst convergence rate among all would dominate "
+        "the overall convergence rate",
         notes="Finitely many classes, with constants free of N; not infinitely many directions.",
     ),
     Entry(
@@ -121,7 +118,8 @@ ENTRIES = (
         status="proved",
         holds=classes.from_below().claim,
         proof=classes.from_below,
-        as_printed="the rate is decided by the direction with the worst behaviour",
+        as_printed="the convergence rate would be decided by the direction n_k that would exhibit "
+        "the worst convergence behaviour",
         notes="A single direction of a continuum has no share in the integral, one of finitely "
         "many classes has.",
     ),

@@ -1,29 +1,36 @@
-"""Section 6.2, Eqs. 19-26 and Table 1: Latin hypercubes, multi-jitter, uncorrelated jitter."""
+"""Section 6.2, Eqs. 24-26 and Table 1: Latin hypercubes, multi-jitter, uncorrelated jitter."""
 
 from collections.abc import Callable
 from functools import partial
 
-from ...theory.symbolic import sympy
 from .. import (
-    axis_terms,
     classes,
     lattice_powers,
     lattice_rates,
     multi_jitter_bounds,
+    multi_jitter_spectra,
     plateaus,
     point_rates,
-    regional_sums,
 )
 from ..entry import Entry
 from ..kernel import Step
+from ..model import IN_MODEL
 
 _AXIS = "Section 6.2, Latin hypercube sampling"
-_WORST, _BEST = (axis_terms.axis_worst(),), (axis_terms.axis_best(),)
-_THREE = sympy.Integer(3)
-
 _JITTERS = "Section 6.2, multi-jitter and uncorrelated jitter"
 _MULTI = (
     "a, b are the frequencies, both above 0; the spectrum is that of Chiu, Shirley, Wang (1994)."
+)
+_NO_BALL = "No entry proves the decay d + 1 of a ball for d >= 2, which q = 1 stands for."
+_ITSELF_24 = "Of the sampler itself: 24, a wave across axes, and 24, a wave along an axis."
+_ITSELF_25 = (
+    "Of the sampler itself, d = 2: 25, on the axes, from below, from above, a wave across axes. "
+    "Multi-jitter is of d = 2 in the paper's sense; for d > 2 orthogonal arrays of strength d can "
+    "stand for it (kernel, multi-jitter)."
+)
+_ITSELF_26 = (
+    "Of the sampler itself: 26, between the blocks. k = d − 3 > 0: printed for d >= 4 alone; equal "
+    "strata need N to be a square and a (d − 3)-th power at once."
 )
 
 
@@ -32,7 +39,8 @@ def _rate(
 ) -> Entry:
     """A rate in the model of Eqs. 16-18, printed as a bound, proved two-sided."""
     source = f"Section 6.2, {number.partition(',')[0]}, in Eq. 17"
-    return _true(number, title, proof, as_printed, notes, source)
+    subject, what = title.split(":", 1)
+    return _true(number, f"{subject}, {IN_MODEL}:{what}", proof, as_printed, notes, source)
 
 
 def _true(
@@ -76,83 +84,20 @@ def _both(
 
 
 ENTRIES = (
-    Entry(
-        number="19",
-        title="worst case along an axis, N_k = N: the integrals with their right ends",
-        source=f"{_AXIS}, Eq. 19",
-        status="corrected",
-        holds=axis_terms.axis_worst().closed.claim,
-        proof=lambda: axis_terms.axis_worst().closed,
-        printed=axis_terms.FROM_0,
-        as_printed="... + ∫_0^∞ ρ^(d−1) (γ/N) c_f ρ^(−d−1) dρ",
-        refutation=axis_terms.diverges_from_0,
-        notes="The second integral begins at αN; from 0 it diverges.",
-    ),
-    Entry(
-        number="20",
-        title="worst case along an axis: a bound where the rows of Eq. 16 meet",
-        source=f"{_AXIS}, Eq. 20",
-        status="corrected",
-        holds=axis_terms.bound_where_rows_meet().claim,
-        proof=axis_terms.bound_where_rows_meet,
-        printed=axis_terms.EQ_20,
-        as_printed="< c_f γ/(α²N³) ∫_0^(αN) dρ + (c_f γ/N) ∫_(αN)^∞ ρ^−2 dρ",
-        refutation=axis_terms.exceeds_20,
-        notes="With c_f on both rows and ρ0 = 3, d = 1, N = 4 it is 14/64, the bound 8/64.",
-    ),
-    Entry(
-        number="21",
-        title="worst case along an axis, with the Jacobian ρ^(d−1): Θ(N^−2)",
-        source=f"{_AXIS}, Eq. 21",
-        status="proved",
-        holds=regional_sums.order(_WORST, regional_sums.TWO).claim,
-        proof=partial(regional_sums.order, _WORST, regional_sums.TWO),
-        as_printed="Var < O(N^−2)",
-        notes="O is an equality of orders, and no inequality stands before it.",
-    ),
-    Entry(
-        number="21, of a disk",
-        title="on a true axis a disk gives Θ(N^−3 log N)",
-        source=f"{_AXIS}, Eqs. 19-21 and 24",
-        status="corrected",
-        holds=axis_terms.disk_on_an_axis().claim,
-        proof=axis_terms.disk_on_an_axis,
-        printed=axis_terms.EQ_21_DISK,
-        as_printed="the worst case along an axis is of order N^−2",
-        refutation=axis_terms.not_the_rate_of_a_disk,
-        notes="An axis has no Jacobian: s = 1, q = 2 for a disk. N^−2 needs a jump across it.",
-    ),
-    Entry(
-        number="22",
-        title="best case along an axis in closed form",
-        source=f"{_AXIS}, Eq. 22",
-        status="proved",
-        holds=axis_terms.axis_best().closed.claim,
-        proof=lambda: axis_terms.axis_best().closed,
-        as_printed="∫_0^ρ0 ρ^(d−1) (γ/N) (ρ/(αN))² c_f dρ",
-        notes="Equal to the variance where ρ0 <= αN, and above it before.",
-    ),
-    Entry(
-        number="23",
-        title="best case along an axis: Θ(N^−3)",
-        source=f"{_AXIS}, Eq. 23",
-        status="proved",
-        holds=regional_sums.order(_BEST, _THREE).claim,
-        proof=partial(regional_sums.order, _BEST, _THREE),
-        as_printed="Var < O(N^−3)",
-    ),
     _rate(
         "24, worst case",
         "Latin hypercube: Θ(N^−1), the flat rest decides",
         partial(point_rates.eq_24, True),
         "O(N^−2) + O(N^−1)",
-        "The fast class are the d axes, that is all additive functions; not d − 1 hyper-planes.",
+        "The fast class are the d axes, that is all additive functions; not d − 1 hyper-planes. "
+        + _ITSELF_24,
     ),
     _rate(
         "24, best case",
         "Latin hypercube: Θ(N^−1), the flat rest decides",
         partial(point_rates.eq_24, False),
         "O(N^−3) + O(N^−1)",
+        _ITSELF_24,
     ),
     Entry(
         number="24, the flat rest",
@@ -168,46 +113,59 @@ ENTRIES = (
     ),
     _true(
         "24, a wave across axes",
-        "cos 2πx cos 2πy under a Latin hypercube: 1/(4N) <= Var <= 1/(2N)",
+        "cos 2πx cos 2πy under a Latin hypercube: Θ(1/N)",
         plateaus.wave_across,
-        "in general not better than O(N^−1)",
+        "for most of the integrands ... would not be better than O(N^−1)",
+        "Of the sampler itself, for every N >= 2; the proof passes through 1/(4N) <= Var <= "
+        "1/(2N).",
     ),
     _true(
         "24, a wave along an axis",
         "cos 2πmx under a Latin hypercube: Θ(N^−3)",
         plateaus.wave_along,
-        "integrands that vary only along one of the dimensions converge much faster",
-        "By addition the same holds of every sum of such waves on several axes.",
+        "Integrands that vary only along one of the dimensions ... converge much faster",
+        "Of the sampler itself, for every N > 1. By addition the same holds of every sum of such "
+        "waves on several axes.",
     ),
     _true(
         "24, the faster slope first",
         "A/N³ + B/N <= 2A/N³ while B N² <= A",
         partial(classes.two_slopes, True),
-        "the estimator may initially follow the slope of the faster convergence rate",
+        "may initially follow the slope of the faster convergence rate",
     ),
     _true(
         "24, the slower slope last",
         "A/N³ + B/N <= 2B/N once A <= B N²",
         partial(classes.two_slopes, False),
-        "with increasing samples the slower convergence rate will dominate",
+        "with increasing samples the slower convergence rate will dominate any constant factors",
     ),
     _rate(
         "25, worst case",
         "multi-jitter: Θ(N^(−1−1/d)), d > 1",
         partial(point_rates.eq_25, True),
         "O(N^−2) + O(N^(−1−1/d))",
+        _ITSELF_25,
     ),
     _rate(
         "25, best case",
         "multi-jitter: Θ(N^(−1−2/d)), d > 1",
         partial(point_rates.eq_25, False),
         "O(N^−3) + O(N^(−1−2/d))",
+        _ITSELF_25,
+    ),
+    _true(
+        "25, on the axes",
+        "multi-jitter on an axis: N P_S = 1 − sinc²(m/N), as of a Latin hypercube, d = 2",
+        multi_jitter_spectra.on_an_axis,
+        "the effective number of samples along each dimension would be N_k = N",
+        "Of m columns and n rows, N = m n, at (f, 0), f whole and not 0: the first terms of Eq. "
+        "25.",
     ),
     _true(
         "25, from below",
         "multi-jitter off its axes is at least Y/(8 (1 + Y)), Y = (π²/3)|m|²/N, d = 2",
         multi_jitter_bounds.multi_jitter_from_below,
-        "radial behaviour of jittered samples in all directions",
+        "exhibits radial behaviour of jittered samples in all the directions",
         _MULTI,
     ),
     _true(
@@ -221,14 +179,14 @@ ENTRIES = (
         "25, plateau",
         "multi-jitter is at most n/(n − 1) times random sampling, N = n²",
         multi_jitter_bounds.multi_jitter_plateau,
-        "P_S = γ/N",
+        "γ_k/N otherwise",
         _MULTI,
     ),
     _true(
         "25, a wave across axes",
         "cos 2πx cos 2πy under multi-jitter: Θ(N^−2), N = n²",
         multi_jitter_bounds.wave_order,
-        "O(N^(−1−2/d)) in the best case",
+        "O(N^−3) + O(N^(−1−2/d)) best-case",
         _MULTI,
     ),
     Entry(
@@ -239,43 +197,60 @@ ENTRIES = (
         holds=multi_jitter_bounds.correlated_wave().claim,
         proof=multi_jitter_bounds.correlated_wave,
         printed=multi_jitter_bounds.CORRELATED_AS_A_RATE,
-        as_printed="the best case of multi-jitter is of order N^(−1−2/d)",
+        as_printed="O(N^−3) + O(N^(−1−2/d)) best-case",
         refutation=multi_jitter_bounds.not_the_rate_of_the_correlated,
-        notes="True of Chiu, Shirley, Wang (1994); not of Kensler (2013), whose off-axis power is "
-        "O(N^−2) at fixed frequencies.",
+        notes="Read as a rate. True of Chiu, Shirley, Wang (1994); not of Kensler (2013), whose "
+        "power at fixed frequencies off the axes is O(N^−2).",
+    ),
+    Entry(
+        number="25, a ridge of correlated multi-jitter",
+        title="with shuffles in common N P_S >= n − 2π²/(3n) at (n, 1), N = n²: no plateau",
+        source=_JITTERS,
+        status="corrected",
+        holds=multi_jitter_bounds.on_a_ridge().claim,
+        proof=multi_jitter_bounds.on_a_ridge,
+        printed=multi_jitter_bounds.BOUNDED_RIDGE,
+        as_printed="exhibits radial behaviour of jittered samples in all the directions",
+        refutation=multi_jitter_bounds.ridge_is_not_bounded,
+        notes="True of Chiu, Shirley, Wang (1994): 25, plateau. Of Kensler (2013) no γ/N, γ free "
+        "of N, is a bound off the axes: the power at (n, 1) is that of kernel, correlated "
+        "multi-jitter, on a ridge.",
     ),
     _rate(
         "26, worst case",
         "uncorrelated jitter: Θ(N^−1), what lies between the blocks decides",
         partial(point_rates.eq_26, True),
         "O(N^−2) + O(N^−1.5) + O(N^(−1−1/(d−3))) + O(N^−1)",
-        "k = d − 3 > 0: printed for d >= 4 alone.",
+        _ITSELF_26,
     ),
     _rate(
         "26, best case",
         "uncorrelated jitter: Θ(N^−1), what lies between the blocks decides",
         partial(point_rates.eq_26, False),
         "O(N^−3) + O(N^−2) + O(N^(−1−2/(d−3))) + O(N^−1)",
-        "k = d − 3 > 0: printed for d >= 4 alone.",
+        _ITSELF_26,
     ),
     _rate(
         "26, one block in the worst case",
         "a block of k axes by itself: Θ(N^(−1−1/k))",
         partial(point_rates.block, True, point_rates.k),
-        "O(N^−2), O(N^−1.5), O(N^(−1−1/(d−3)))",
-        "For a block whose function jumps. A ball in d dimensions has q = d + 1 − k on the block.",
+        "1D O(N^−2), 2D O(N^−1.5), (d−3)D O(N^(−1−1/(d−3)))",
+        "For a block whose function jumps. A ball that decays as ρ^(−d−1) has q = d + 1 − k on "
+        "the block.",
     ),
     _rate(
         "26, one block in the best case",
         "a block of k axes by itself: Θ(N^(−1−2/k))",
         partial(point_rates.block, False, point_rates.k),
-        "O(N^−3), O(N^−2), O(N^(−1−2/(d−3)))",
+        "1D O(N^−3), 2D O(N^−2), (d−3)D O(N^(−1−2/(d−3)))",
+        "Of jitter itself: Table 1, a wave.",
     ),
     _true(
         "26, between the blocks",
         "on w blocks at once |N P_S − 1| <= (N − 1)^(1 − w), a(i) = ∏ sinc² of block i",
         plateaus.flat_across,
-        "in-between these subspaces we will fall back to O(N^−1)",
+        "varying in-between these subspaces, we will fall back to ... O(N^−1)",
+        "Of the sampler itself, for every N >= 2.",
     ),
     _rate(
         "6.2, an ellipse, worst case",
@@ -291,13 +266,13 @@ ENTRIES = (
     ),
     Entry(
         number="6.2, projective blue noise",
-        title="a flat profile has the rate 1 however large N_k is",
+        title=f"a flat profile, {IN_MODEL}: the rate is 1 however large N_k is",
         source="Section 6.2, anisotropic blue noise samplers",
         status="corrected",
         holds=point_rates.flat_order().claim,
         proof=point_rates.flat_order,
         printed=point_rates.PROJECTIVE,
-        as_printed="denser projections highly improve the convergence rate",
+        as_printed="the convergence rate along that set of directions could be highly improved",
         refutation=point_rates.no_faster,
         notes="Poisson disks have b = 0, and N_k^0 = 1: denser projections change constants only.",
     ),
@@ -305,14 +280,15 @@ ENTRIES = (
         "Table 1, worst case",
         "jitter: Θ(N^(−1−1/d))",
         partial(point_rates.table_1, True),
-        "O(N^(−1−1/d)): N^−2, N^−1.5, N^(−4/3)",
+        "O(N^(−1−1/d)): O(N^−2), O(N^−1.5), O(N^(−4/3))",
+        "Of jitter itself, d = 1: Table 1, jump. " + _NO_BALL,
     ),
     _rate(
         "Table 1, best case",
         "jitter: Θ(N^(−1−2/d))",
         partial(point_rates.table_1, False),
-        "N^−3, N^−2, N^(−5/3)",
-        "The label O(N^(−1−2/d)) of this row is missing.",
+        "O(N^−3), O(N^−2), O(N^(−5/3))",
+        "The label O(N^(−1−2/d)) of this row is missing. Of jitter itself: Table 1, a wave, kink.",
     ),
     _true(
         "Table 1, a wave",

@@ -4,6 +4,7 @@ from functools import partial
 
 from .. import two_classes
 from ..entry import Entry
+from ..model import NOTE
 from ..radial import Case
 
 _CASES: tuple[Case, ...] = ("b>q", "b=q", "b<q")
@@ -18,7 +19,9 @@ def _order(first: Case, second: Case) -> Entry:
         status="proved",
         holds=two_classes.order(first, second).claim,
         proof=partial(two_classes.order, first, second),
-        notes="r_k = e_k min(b_k, q_k), r_1 < r_2: not the class with the smallest b_k.",
+        notes=NOTE + "r_k = e_k min(b_k, q_k), r_1 < r_2: not the class with the smallest b_k. "
+        "Equal exponents, r_1 = r_2, are left out: there both classes count, and so does a "
+        "logarithm of either (6.1, classes).",
     )
 
 
