@@ -1,8 +1,8 @@
 """Machine-checked statements about the paper: a small kernel, proofs, and the ledger.
 
-Trusted are ``kernel.py``, the rules, and what decides for them: ``grammar.py``, ``facts.py``,
-``normal_forms.py``, ``growth.py``, ``enclosures.py``, ``claims.py``, ``hypotheses.py``. Everything
-else finds steps, and a mistake in it cannot make a theorem.
+Trusted is the folder ``trusted/``: ``kernel.py``, the rules, and what decides for them. Everything
+else finds steps (``theorems/``), states what they prove (``entries/``) or tries to refute it by
+numbers (``attacking/``), and a mistake there cannot make a theorem.
 
 To add an entry:
 
@@ -10,7 +10,7 @@ To add an entry:
    the symbol ``along`` that grows. Symbols are real (``tactics.real``); that b is positive or n is
    whole is a hypothesis (``tactics.positive``, ``tactics.whole``). A hypothesis on a function says
    ``over`` which symbols it is meant for all of, as 0 <= a(i) for all whole i >= 1.
-2. Prove it by a tree of ``Step(claim, reason, uses)``; the reasons are in ``reasons.py``.
+2. Prove it by a tree of ``Step(claim, reason, uses)``; the reasons are in ``trusted/reasons.py``.
    ``Combine`` adds equations and inequalities with coefficients, the remainder a visible sum of
    squares; ``Monotone`` and ``Antiderivative`` are calculus; ``Range``, ``Linear``, ``Bind`` and
    ``Improper`` handle sums and integrals; ``Limit``, ``Squeeze``, ``Eventually``, ``Order`` handle

@@ -15,9 +15,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from .claims import Axiom, Claim
-from .grammar import require
-from .kernel import Step, Theorem, check
+from .trusted.claims import Axiom, Claim
+from .trusted.grammar import require
+from .trusted.kernel import Step, Theorem, check
 
 Status = Literal["proved", "corrected", "refuted", "admitted", "definition"]
 

@@ -3,7 +3,6 @@
 An entry is checked by ``entry.recheck``; ``AXIOMS`` lists the theorems that proofs may cite.
 """
 
-from .claims import Axiom
 from .entries import (
     appendix_a,
     appendix_b,
@@ -21,6 +20,7 @@ from .entries import (
     two_classes,
 )
 from .entry import Entry, Verdict, recheck
+from .trusted.claims import Axiom
 
 ENTRIES: tuple[Entry, ...] = (
     *section3.ENTRIES,

@@ -10,9 +10,9 @@ off their axes, and of an interval (Eq. 16), and of no ball in more dimensions.
 """
 
 from ..theory.symbolic import Expr, sympy
-from .claims import Claim
 from .entry import Entry
-from .radial import rho
+from .theorems.radial import rho
+from .trusted.claims import Claim
 
 IN_MODEL = "in the model of Eqs. 16-18"
 NOTE = "In the model of Eqs. 16-18. "

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from ..numerics.interruptible_pools import results
 from ..theory.errors import InputError
 from . import ledger
-from .claims import Axiom, Claim
 from .entry import Entry, recheck
-from .kernel import Step
-from .reasons import Reason
+from .trusted.claims import Axiom, Claim
+from .trusted.kernel import Step
+from .trusted.reasons import Reason
 
 Progress = Callable[[str], None]
 

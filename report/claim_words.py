@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from ..proofs.claims import Claim
+from ..proofs.trusted.claims import Claim
 from ..theory.symbolic import Expr, sympy
 from .formulas import Bracket, Formula, Word, related, row, term
 

@@ -5,8 +5,8 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from ..proofs.claims import Axiom
 from ..proofs.rechecks import Recheck, Rechecks, equation, identifier
+from ..proofs.trusted.claims import Axiom
 from .claim_words import Prose
 from .formula_prints import plain
 from .grids import aligned, markdown

@@ -8,8 +8,8 @@ import re
 from collections.abc import Sequence
 from itertools import groupby
 
-from ..proofs.claims import Claim
 from ..proofs.rechecks import Recheck, Rechecks, identifier
+from ..proofs.trusted.claims import Claim
 from .claim_words import Prose
 from .formula_prints import latex
 from .formula_prose import latex_text

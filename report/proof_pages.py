@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from html import escape
 from itertools import groupby
 
-from ..proofs.claims import Claim
 from ..proofs.rechecks import Recheck, Rechecks, identifier
+from ..proofs.trusted.claims import Claim
 from .claim_words import Prose
 from .formula_prints import mathml
 from .formula_prose import pieces

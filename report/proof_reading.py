@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from ..proofs import reasons as by
-from ..proofs.claims import Claim
 from ..proofs.entry import Entry
 from ..proofs.rechecks import Line, proof_lines
+from ..proofs.trusted import reasons as by
+from ..proofs.trusted.claims import Claim
 from ..theory.symbolic import Expr, Symbol, sympy
 from .claim_words import Prose, Shown, hypotheses, joined, statement, values_of
 from .formulas import Formula, related, symbol, term

@@ -3,8 +3,8 @@
 import re
 from collections.abc import Iterator, Sequence
 
-from ..proofs import reasons as by
 from ..proofs.rechecks import Line
+from ..proofs.trusted import reasons as by
 from ..theory.symbolic import Expr
 from .claim_words import Prose, Shown, joined, values_of
 from .formulas import Bracket, Formula, Word, related, term

@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Callable
 
 import pytest
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import mutants, steps_of
-from specrate.proofs.trials import refuted
+from specrate.proofs.attacking.mutations import mutants, steps_of
+from specrate.proofs.attacking.trials import refuted
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 
 Cases = tuple[tuple[str, Callable[[], Step], int, int], ...]
 """Name, proof, one in how many of its mutants is tried, and how many rejections there must be."""

@@ -14,11 +14,12 @@ import pytest
 import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specrate.proofs import attacks, ledger
-from specrate.proofs.attacks import Bound, bounds
-from specrate.proofs.claims import Claim
-from specrate.proofs.trial_points import NoPoint, point, symbols
-from specrate.proofs.trials import Trial, trial, trials
+from specrate.proofs import ledger
+from specrate.proofs.attacking import attacks
+from specrate.proofs.attacking.attacks import Bound, bounds
+from specrate.proofs.attacking.trial_points import NoPoint, point, symbols
+from specrate.proofs.attacking.trials import Trial, trial, trials
+from specrate.proofs.trusted.claims import Claim
 
 FUZZ = 10_000
 THEOREMS = tuple(t for t in bounds() if t.is_theorem)

@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp
 from specrate.numerics.balls import exact_ball, flint
-from specrate.proofs.enclosures import ball
-from specrate.proofs.facts import Facts, above, defined, different
-from specrate.proofs.grammar import Refused, well_formed
-from specrate.proofs.growth import limit_of
-from specrate.proofs.normal_forms import zero
-from specrate.proofs.tactics import real
-from specrate.proofs.trials import Point, Undefined, value
+from specrate.proofs.attacking.trials import Point, Undefined, value
+from specrate.proofs.theorems.tactics import real
+from specrate.proofs.trusted.enclosures import ball
+from specrate.proofs.trusted.facts import Facts, above, defined, different
+from specrate.proofs.trusted.grammar import Refused, well_formed
+from specrate.proofs.trusted.growth import limit_of
+from specrate.proofs.trusted.normal_forms import zero
 
 x, y, b, q, n, m = real("x y b q n m")
 FACTS = Facts(positive=frozenset({x, y, b - q}), nonzero=frozenset({q}), whole=frozenset({n, m}))

@@ -4,13 +4,13 @@ Power: the tally of refuted mutants is asserted, so that a harness that finds no
 """
 
 import pytest
-from specrate.proofs import point_rates, two_classes
-from specrate.proofs.claims import Claim
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import mutants, steps_of
-from specrate.proofs.tactics import ONE
-from specrate.proofs.trials import refuted
+from specrate.proofs.attacking.mutations import mutants, steps_of
+from specrate.proofs.attacking.trials import refuted
+from specrate.proofs.theorems import point_rates, two_classes
+from specrate.proofs.theorems.tactics import ONE
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 
 
 @pytest.mark.parametrize(("is_worst", "every"), [(True, 151), (False, 171)])

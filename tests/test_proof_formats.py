@@ -16,12 +16,12 @@ import jsonschema
 import pytest
 import sympy
 from specrate.proofs import ledger, prove
-from specrate.proofs import reasons as by
-from specrate.proofs.claims import Claim
 from specrate.proofs.entry import Entry
-from specrate.proofs.kernel import Step
 from specrate.proofs.rechecks import Recheck, Rechecks, run
-from specrate.proofs.tactics import positive, real, whole
+from specrate.proofs.theorems.tactics import positive, real, whole
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.kernel import Step
 from specrate.report.claim_words import hypotheses, statement
 from specrate.report.cli import main
 from specrate.report.formula_prose import latex_text, pieces

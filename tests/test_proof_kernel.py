@@ -4,12 +4,20 @@ from dataclasses import replace
 
 import pytest
 import sympy
-from specrate.proofs import radial
-from specrate.proofs import reasons as by
-from specrate.proofs.claims import Axiom, Claim
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, Theorem, check
-from specrate.proofs.tactics import ONE, ZERO, combine, positive, power_integral, real, whole
+from specrate.proofs.theorems import radial
+from specrate.proofs.theorems.tactics import (
+    ONE,
+    ZERO,
+    combine,
+    positive,
+    power_integral,
+    real,
+    whole,
+)
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.claims import Axiom, Claim
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, Theorem, check
 
 x, y, n, k, N, b = real("x y n k N b")
 oo = sympy.oo

@@ -12,16 +12,16 @@ from hypothesis import strategies as st
 from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.numerics.integrands.protocol import mp
-from specrate.proofs import multi_jitter_spectra as multi_jitter
-from specrate.proofs import rules, strata
-from specrate.proofs import stratified_spectra as stratified
-from specrate.proofs.claims import Claim
+from specrate.proofs.attacking.trials import Point, refuted, value
 from specrate.proofs.entries import kernels
 from specrate.proofs.entries import rules as rule_entries
 from specrate.proofs.entry import Entry, recheck
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step
-from specrate.proofs.trials import Point, refuted, value
+from specrate.proofs.theorems import multi_jitter_spectra as multi_jitter
+from specrate.proofs.theorems import rules, strata
+from specrate.proofs.theorems import stratified_spectra as stratified
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step
 from specrate.theory.samplers import parse_sampler
 
 _FREQUENCY = st.integers(-9, 9)

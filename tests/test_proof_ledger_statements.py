@@ -5,7 +5,10 @@ from collections import defaultdict
 from dataclasses import replace
 
 import pytest
-from specrate.proofs import (
+from specrate.proofs.entry import Entry
+from specrate.proofs.ledger import ENTRIES
+from specrate.proofs.model import IN_MODEL, of_model, says_so
+from specrate.proofs.theorems import (
     homogenisation,
     multi_jitter_spectra,
     point_rates,
@@ -13,10 +16,7 @@ from specrate.proofs import (
     single_direction,
     stratified_spectra,
 )
-from specrate.proofs.claims import Claim
-from specrate.proofs.entry import Entry
-from specrate.proofs.ledger import ENTRIES
-from specrate.proofs.model import IN_MODEL, of_model, says_so
+from specrate.proofs.trusted.claims import Claim
 
 _READING = re.compile(r"as a rate|[Rr]ead as|\bhence\b|, at [a-zνρ] =|[Dd]enied")
 """Words of a reader, which no quotation has."""

@@ -10,7 +10,9 @@ from dataclasses import replace
 import pytest
 import sympy
 from mutant_trials import Cases, assert_refuted_mutants_are_rejected
-from specrate.proofs import (
+from specrate.proofs.entries import appendix_a, appendix_b, lines
+from specrate.proofs.entry import Entry, recheck
+from specrate.proofs.theorems import (
     appendix_spectra,
     best_case,
     cone_sums,
@@ -20,12 +22,10 @@ from specrate.proofs import (
     segments,
     worst_direction,
 )
-from specrate.proofs import reasons as by
-from specrate.proofs.entries import appendix_a, appendix_b, lines
-from specrate.proofs.entry import Entry, recheck
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.tactics import ONE
+from specrate.proofs.theorems.tactics import ONE
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 
 _ENTRIES: tuple[Entry, ...] = (
     *lines.ENTRIES, *lines.BEYOND, *appendix_a.ENTRIES, *appendix_b.ENTRIES,

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.numerics.expected_spectra.spectra import scaled_power
 from specrate.numerics.integrands.protocol import mp
-from specrate.proofs import (
+from specrate.proofs.attacking.trials import Point, value
+from specrate.proofs.theorems import (
     axis_terms,
     flats,
     line_estimators,
@@ -27,10 +28,9 @@ from specrate.proofs import (
     sphere_means,
     stratified_spectra,
 )
-from specrate.proofs.claims import Claim
-from specrate.proofs.kernel import Step
-from specrate.proofs.tactics import ONE
-from specrate.proofs.trials import Point, value
+from specrate.proofs.theorems.tactics import ONE
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.kernel import Step
 from specrate.theory.samplers import parse_sampler
 from specrate.theory.symbolic import sympy
 

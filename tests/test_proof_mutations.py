@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import pytest
 from mutant_trials import Cases, assert_refuted_mutants_are_rejected
-from specrate.proofs import exponential_sums, products, radial, sines, single_direction
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import steps_of
-from specrate.proofs.trials import refuted
+from specrate.proofs.attacking.mutations import steps_of
+from specrate.proofs.attacking.trials import refuted
+from specrate.proofs.theorems import exponential_sums, products, radial, sines, single_direction
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 
 CASES: Cases = (
     ("sines", sines.jitter_envelope, 1, 200),

@@ -11,12 +11,7 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 from specrate.numerics.integrands.protocol import mp
-from specrate.proofs import (
-    axis_terms,
-    integrand_rows,
-    lattice_powers,
-    multi_jitter_bounds,
-)
+from specrate.proofs.theorems import axis_terms, integrand_rows, lattice_powers, multi_jitter_bounds
 
 Number = Any
 reals = st.floats(1e-3, 1e2)

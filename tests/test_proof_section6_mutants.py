@@ -7,7 +7,9 @@ from collections.abc import Callable
 
 import pytest
 import sympy
-from specrate.proofs import (
+from specrate.proofs.attacking.mutations import Mutant, mutants, steps_of
+from specrate.proofs.attacking.trials import refuted
+from specrate.proofs.theorems import (
     axis_terms,
     classes,
     integrand_rows,
@@ -19,10 +21,8 @@ from specrate.proofs import (
     plateaus,
     profile_limits,
 )
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.mutations import Mutant, mutants, steps_of
-from specrate.proofs.trials import refuted
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 
 PROOFS: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
     ("cosine", jitter_bounds.cosine_pade, 13, 10),

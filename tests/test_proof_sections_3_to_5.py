@@ -9,7 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mutant_trials import Cases, assert_refuted_mutants_are_rejected
 from specrate.numerics.integrands.protocol import mp
-from specrate.proofs import (
+from specrate.proofs.attacking.trials import Point, refuted, value
+from specrate.proofs.entries import section3, section4, section5
+from specrate.proofs.entry import Entry, recheck
+from specrate.proofs.theorems import (
     constant_integrand,
     deltas,
     homogenisation,
@@ -19,11 +22,8 @@ from specrate.proofs import (
     shifts,
     variance,
 )
-from specrate.proofs.entries import section3, section4, section5
-from specrate.proofs.entry import Entry, recheck
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step
-from specrate.proofs.trials import Point, refuted, value
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step
 
 ENTRIES = (*section3.ENTRIES, *section4.ENTRIES, *section5.ENTRIES)
 PROVED = tuple(

@@ -1,12 +1,12 @@
 """What must never become a theorem: steps that once did, and those that come near them."""
 
 import pytest
-from specrate.proofs import reasons as by
-from specrate.proofs.claims import Claim
-from specrate.proofs.facts import Facts, defined
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.tactics import ONE, ZERO, combine, real, whole
+from specrate.proofs.theorems.tactics import ONE, ZERO, combine, real, whole
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.facts import Facts, defined
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 from specrate.theory.symbolic import Expr, Symbol, sympy
 
 x, y, n, j, k, t, N = real("x y n j k t N")

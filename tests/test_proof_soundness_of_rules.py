@@ -3,11 +3,11 @@
 from collections.abc import Callable
 
 import pytest
-from specrate.proofs import reasons as by
-from specrate.proofs.claims import Axiom, Claim
-from specrate.proofs.grammar import Refused
-from specrate.proofs.kernel import Step, check
-from specrate.proofs.tactics import ONE, ZERO, combine, real
+from specrate.proofs.theorems.tactics import ONE, ZERO, combine, real
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.claims import Axiom, Claim
+from specrate.proofs.trusted.grammar import Refused
+from specrate.proofs.trusted.kernel import Step, check
 from specrate.theory.symbolic import Expr, Symbol, sympy
 
 x, y, z, w, j, k, n, t, N = real("x y z w j k n t N")

@@ -11,12 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp
 from specrate.proofs import ledger
-from specrate.proofs.claims import Claim
-from specrate.proofs.growth_series import growing
-from specrate.proofs.tactics import real
-from specrate.proofs.trial_points import NoPoint, point
-from specrate.proofs.trial_values import Point, series, value
-from specrate.proofs.trials import Trial, Undecided, Undefined, refuted, trial, trials
+from specrate.proofs.attacking.growth_series import growing
+from specrate.proofs.attacking.trial_points import NoPoint, point
+from specrate.proofs.attacking.trial_values import Point, series, value
+from specrate.proofs.attacking.trials import Trial, Undecided, Undefined, refuted, trial, trials
+from specrate.proofs.theorems.tactics import real
+from specrate.proofs.trusted.claims import Claim
 
 N, x, y, a, b, n, m = real("N x y a b n m")
 F, G = sympy.Function("F"), sympy.Function("G")

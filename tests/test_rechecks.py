@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 import sympy
 from specrate.proofs import ledger, prove
-from specrate.proofs import reasons as by
-from specrate.proofs.claims import Claim
 from specrate.proofs.entry import Entry
-from specrate.proofs.kernel import Step
 from specrate.proofs.rechecks import equation, identifier, proof_lines, selected
-from specrate.proofs.tactics import real
+from specrate.proofs.theorems.tactics import real
+from specrate.proofs.trusted import reasons as by
+from specrate.proofs.trusted.claims import Claim
+from specrate.proofs.trusted.kernel import Step
 from specrate.theory.errors import InputError
 
 x, y = real("x y")

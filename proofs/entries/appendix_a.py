@@ -4,11 +4,11 @@ from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import Expr
-from .. import appendix_spectra as spectra
-from ..appendix_spectra import N, d
 from ..entry import Entry
-from ..kernel import Step
-from ..tactics import ONE
+from ..theorems import appendix_spectra as spectra
+from ..theorems.appendix_spectra import N, d
+from ..theorems.tactics import ONE
+from ..trusted.kernel import Step
 
 _SCALE = (
     "The argument must be m_i/n_i, m_i/N^(1/d) for equal strata: at whole frequencies the printed "

@@ -4,13 +4,21 @@ from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import sympy
-from .. import best_case, cone_sums, radial, rays, readings, single_direction, worst_direction
-from ..claims import Claim
 from ..entry import Entry, Status
-from ..kernel import Step
 from ..model import NOTE
-from ..radial import b, e, q
-from ..tactics import ONE
+from ..theorems import (
+    best_case,
+    cone_sums,
+    radial,
+    rays,
+    readings,
+    single_direction,
+    worst_direction,
+)
+from ..theorems.radial import b, e, q
+from ..theorems.tactics import ONE
+from ..trusted.claims import Claim
+from ..trusted.kernel import Step
 
 _Proof = Callable[[], Step]
 _SOURCE = "Appendix B, Eq"

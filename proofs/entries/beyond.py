@@ -2,9 +2,9 @@
 
 from functools import partial
 
-from .. import radial
 from ..entry import Entry
 from ..model import NOTE
+from ..theorems import radial
 
 _SOURCE = "Eqs. 16-18, one region, s for d"
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from .. import multi_jitter_spectra as multi_jitter
-from .. import stratified_spectra as stratified
 from ..entry import Entry
-from ..kernel import Step
+from ..theorems import multi_jitter_spectra as multi_jitter
+from ..theorems import stratified_spectra as stratified
+from ..trusted.kernel import Step
 
 _BRACKET = "ν is any real frequency; sinc² ν = sin²(πν)/(πν)² is [ν = 0] where ν is whole. "
 

@@ -4,15 +4,15 @@ from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import Expr, sympy
-from .. import best_case, directions, flats, point_rates, radial, segments, sphere_means
-from ..claims import Claim
 from ..entry import Entry
-from ..flats import FLATS, SCALES, d, k
-from ..kernel import Step
 from ..model import IN_MODEL
-from ..radial import b
-from ..segments import u
-from ..tactics import ONE
+from ..theorems import best_case, directions, flats, point_rates, radial, segments, sphere_means
+from ..theorems.flats import FLATS, SCALES, d, k
+from ..theorems.radial import b
+from ..theorems.segments import u
+from ..theorems.tactics import ONE
+from ..trusted.claims import Claim
+from ..trusted.kernel import Step
 
 _Proof = Callable[[], Step]
 _TWO, _HALF = sympy.Integer(2), ONE / 2

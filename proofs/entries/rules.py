@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 
-from .. import rules
 from ..entry import Entry
-from ..kernel import Step
+from ..theorems import rules
+from ..trusted.kernel import Step
 
 
 def _rule(name: str, title: str, proof: Callable[[], Step], source: str, notes: str) -> Entry:

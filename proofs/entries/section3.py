@@ -4,7 +4,8 @@ from dataclasses import replace
 from functools import cache, partial
 
 from ...theory.symbolic import sympy
-from .. import (
+from ..entry import Entry
+from ..theorems import (
     constant_integrand,
     deltas,
     homogenisation,
@@ -12,14 +13,13 @@ from .. import (
     polar,
     stratified_spectra,
     variance,
-)  # fmt: skip
-from .. import reasons as by
-from ..claims import Claim
-from ..entry import Entry
-from ..exponential_sums import N, jitter_on_an_axis, m, strata
-from ..kernel import Step
-from ..stratified_spectra import d
-from ..tactics import ZERO
+)
+from ..theorems.exponential_sums import N, jitter_on_an_axis, m, strata
+from ..theorems.stratified_spectra import d
+from ..theorems.tactics import ZERO
+from ..trusted import reasons as by
+from ..trusted.claims import Claim
+from ..trusted.kernel import Step
 
 _UNSCALED = (sympy.sin(sympy.pi * m) / (sympy.pi * m)) ** 2
 _GIVEN = (*strata(), Claim(m, "!=", ZERO))

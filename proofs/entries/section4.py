@@ -1,7 +1,7 @@
 """Section 4, Eqs. 7-9: the variance in polar coordinates, and direction by direction."""
 
-from .. import constant_integrand, point_readings, polar, single_direction
 from ..entry import Entry
+from ..theorems import constant_integrand, point_readings, polar, single_direction
 
 ENTRIES = (
     Entry(

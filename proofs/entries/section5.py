@@ -3,10 +3,10 @@
 from functools import partial
 
 from ...theory.symbolic import sympy
-from .. import deltas, line_estimators
 from ..entry import Entry
-from ..segments import line_of_a_wave
-from ..stratified_spectra import d
+from ..theorems import deltas, line_estimators
+from ..theorems.segments import line_of_a_wave
+from ..theorems.stratified_spectra import d
 
 EQ_10 = deltas.of_a_norm(d - 1)
 

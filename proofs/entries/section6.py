@@ -1,7 +1,7 @@
 """Section 6, Eqs. 16-27: profiles, and convergence of points and lines."""
 
-from .. import exponential_sums, products, profile_limits
 from ..entry import Entry
+from ..theorems import exponential_sums, products, profile_limits
 
 ENTRIES = (
     Entry(

@@ -2,9 +2,9 @@
 
 from functools import partial
 
-from .. import axis_terms, classes, integrand_rows, jitter_bounds, profile_limits, radial
 from ..entry import Entry
 from ..model import NOTE
+from ..theorems import axis_terms, classes, integrand_rows, jitter_bounds, profile_limits, radial
 
 
 def _closed(case: radial.Case, form: str) -> Entry:

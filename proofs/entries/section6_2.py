@@ -3,7 +3,9 @@
 from collections.abc import Callable
 from functools import partial
 
-from .. import (
+from ..entry import Entry
+from ..model import IN_MODEL
+from ..theorems import (
     classes,
     lattice_powers,
     lattice_rates,
@@ -12,9 +14,7 @@ from .. import (
     plateaus,
     point_rates,
 )
-from ..entry import Entry
-from ..kernel import Step
-from ..model import IN_MODEL
+from ..trusted.kernel import Step
 
 _AXIS = "Section 6.2, Latin hypercube sampling"
 _JITTERS = "Section 6.2, multi-jitter and uncorrelated jitter"

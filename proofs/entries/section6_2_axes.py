@@ -3,9 +3,9 @@
 from functools import partial
 
 from ...theory.symbolic import sympy
-from .. import axis_terms, regional_sums
 from ..entry import Entry
 from ..model import IN_MODEL, NOTE
+from ..theorems import axis_terms, regional_sums
 
 _AXIS = "Section 6.2, Latin hypercube sampling"
 _WORST, _BEST = (axis_terms.axis_worst(),), (axis_terms.axis_best(),)

@@ -2,10 +2,10 @@
 
 from functools import partial
 
-from .. import two_classes
 from ..entry import Entry
 from ..model import NOTE
-from ..radial import Case
+from ..theorems import two_classes
+from ..theorems.radial import Case
 
 _CASES: tuple[Case, ...] = ("b>q", "b=q", "b<q")
 _RATES = {"b>q": "N^−(1+eq)", "b=q": "N^−(1+eb) log N", "b<q": "N^−(1+eb)"}

@@ -1,0 +1,1 @@
+"""Proofs of the entries, and the tactics that find their steps; none of it is trusted."""
