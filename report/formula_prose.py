@@ -29,10 +29,10 @@ _ASCII = {
     "←": r"$\leftarrow$", "⌈": r"$\lceil$", "⌉": r"$\rceil$", "†": r"$\dagger$", "µ": r"$\mu$",
 }  # fmt: skip
 
-_GROUP = r"[−+-]?\((?:[^()]|\([^()]*\))*\)|\{[^{}]*\}|[−+-]?(?:\w(?![\w])|\d+|\w+)|[∥⊥∗*′]"
+_GROUP = r"[−+-]?\((?:[^()]|\([^()]*\))*\)|\{[^{}]*\}|[−+-]?(?:\w(?![\w])|\d+|\w+)|[∥⊥∗*′∞]"
 _TOKEN = re.compile(
-    r"(?P<hat>[A-Za-zα-ωΑ-Ω][\u0300-\u036f]|f\^(?=\())"
-    rf"|(?P<script>(?<=[\w)\]|}}²\u0300-\u036f])[\^_](?:{_GROUP}))"
+    r"(?P<hat>[A-Za-zα-ωΑ-Ω][\u0300-\u036f]|f\^(?=[(|]))"
+    rf"|(?P<script>(?<=[\w)\]|}}²∞∫∏\u0300-\u036f])[\^_](?:{_GROUP}))"
     r"|(?P<indexed>[α-ωc]\d(?!\w))|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)|(?P<sunk>[₀₁₂₃₄₅₆₇₈₉]+)"
     r"|(?P<sign><=|>=|!=|->|\.\.\.)"
     r"|(?P<letter>(?<![\w'’.])(?:A(?! [a-z])|(?<!Appendix )[B-Zb-zα-ωΓΔΘΛΞΠΣΦΨΩ])"
@@ -86,8 +86,13 @@ def latex_text(text: str) -> str:
             found += rf"$\{accent}{{{letter}}}$" if accent else f"${letter}$"
         else:
             mark = "^" if kind == "above" else "_"
-            found += f"${mark}{{{''.join(map(_in_mathematics, word))}}}$"
+            inner = _INDEX.sub(r"_{\1}", "".join(map(_in_mathematics, word)))
+            found += f"${mark}{{{inner}}}$"
     return re.sub(r"(?<!\\)\$\$", " ", found)
+
+
+_INDEX = re.compile(r"\\_ (\w+)")
+"""An index within an index or exponent, as its escaped sign stands there."""
 
 
 def _in_mathematics(character: str) -> str:

@@ -249,4 +249,9 @@ def _set(prose: Prose, display: bool = False) -> Html:
 def _text(text: str) -> Html:
     """Prose with letters, indices and exponents of formulas set as such."""
     tags = {"letter": "i", "above": "sup", "below": "sub"}
-    return joined(*(element(tags[kind], w) if kind in tags else w for kind, w in pieces(text)))
+    return joined(
+        *(
+            element(tags[kind], _text(w) if "_" in w else w) if kind in tags else w
+            for kind, w in pieces(text)
+        )
+    )

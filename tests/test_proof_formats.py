@@ -135,6 +135,19 @@ def test_every_word_of_the_ledger_can_be_set_in_latex() -> None:
             assert latex_text(words).isascii()
 
 
+@pytest.mark.parametrize(
+    ("words", "set_as"),
+    [
+        ("∫_0^∞ ν", r"$\int _{0} ^{\infty }$ $\nu$"),
+        ("N_k^b_k", r"$N _{k} ^{b_{k}}$"),
+        ("|f^|²", r"$| \hat{f} | ^{2}$"),
+        ("∏^(d−1) x", r"$\prod ^{d-1}$ $x$"),
+    ],
+)
+def test_limits_and_indices_of_exponents_are_set(words: str, set_as: str) -> None:
+    assert latex_text(words) == set_as
+
+
 # Terminal and Markdown
 
 

@@ -110,7 +110,7 @@ _WORST = (
         "Var < O((1/(N N_k))^b_k), 0 < b_k < 1", _DENIED_FIRST,
         NOTE + "The exponent stands outside the bracket, and in Eq. 48 on N_k alone. As a bound "
         "the row holds, and is weaker; read as a rate it is denied at b = 1/2, N_k = N: N^−1 for "
-        "N^−3/2.",
+        "N^(−3/2).",
     ),
     _entry(
         "50", "worst case, b_k = q: Θ(log(N_k)/(N N_k^b_k))", f"{_SOURCE}. 50, second row",
@@ -128,7 +128,8 @@ _WORST = (
         _LEAST["worst"],
         "dominated by the k-th direction having the minimum value of b_k, for b_k in (0, 1)",
         _DENIED_LEAST["worst"],
-        NOTE + "b = 1/2, N_k = N gives N^−3/2; b = 3/4, N_k = N^1/2 beside it decides, N^−11/8.",
+        NOTE + "b = 1/2, N_k = N gives N^(−3/2); b = 3/4, N_k = N^(1/2) beside it decides: "
+        "N^(−11/8).",
     ),
 )  # fmt: skip
 
@@ -152,7 +153,7 @@ _BEST = (
         "54", "best case: the region of the least e_k b_k decides", f"{_SOURCE}. 54", "corrected",
         partial(worst_direction.order_of_two, "best"), _LEAST["best"],
         "dominated by the k-th direction having the minimum value of b_k", _DENIED_LEAST["best"],
-        NOTE + "b = 1/2, N_k = N gives N^−3/2; b = 2, N_k = N^1/6 beside it decides, N^−4/3.",
+        NOTE + "b = 1/2, N_k = N gives N^(−3/2); b = 2, N_k = N^(1/6) beside it decides, N^(−4/3).",
     ),
 )  # fmt: skip
 
@@ -167,16 +168,16 @@ _ONE_FOR_ALL = (
         "N_k = N in every direction, and is no sampler's: constants must be uniform.",
     ),
     _entry(
-        "6.1, rays", "jitter in 3D: every ray of frequencies falls as N^−5/3, the whole does not",
+        "6.1, rays", "jitter in 3D: every ray of frequencies falls as N^(−5/3), the whole does not",
         "Section 6.1 and Appendix B, on the torus", "corrected", rays.each_ray, rays.WHOLE,
         "the convergence rate would be decided by the direction n_k that would exhibit the worst "
         "convergence behaviour", rays.refutation,
-        "Read as: every ray is O(N^−5/3), hence the whole is. Of jitter itself with n³ points and "
-        "|f^|² = |m|^−4, the decay of a ball: 2π²/(3|m|² n^5) on the ray of m. Rays with a "
+        "Read as: every ray is O(N^(−5/3)), hence the whole is. Of jitter itself with n³ points "
+        "and |f^|² = |m|^−4, the decay of a ball: 2π²/(3|m|² n^5) on the ray of m. Rays with a "
         "coordinate 0 are not covered.",
     ),
     _entry(
-        "6.1, from below", "jitter in 3D and |f^|² = |m|^−4: the variance is at least N^−4/3/288",
+        "6.1, from below", "jitter in 3D and |f^|² = |m|^−4: the variance is at least N^(−4/3)/288",
         "against Section 6.1", "proved", rays.lower_bound,
     ),
 )  # fmt: skip
