@@ -6,6 +6,7 @@ import pytest
 from specrate.proofs.theorems.tactics import ONE, ZERO, combine, real
 from specrate.proofs.trusted import reasons as by
 from specrate.proofs.trusted.claims import Axiom, Claim
+from specrate.proofs.trusted.facts import Facts, defined
 from specrate.proofs.trusted.grammar import Refused
 from specrate.proofs.trusted.kernel import Step, check
 from specrate.theory.symbolic import Expr, Symbol, sympy
@@ -249,3 +250,58 @@ class _Equal(Claim):
 def test_an_axiom_is_a_claim_of_the_grammar() -> None:
     axiom = Axiom("all", _Equal(ZERO, "=", ZERO), "nowhere")
     refused(Claim(ZERO, "=", ONE), by.Cite(axiom), because="no claim|not the cited")
+
+
+def test_an_integral_from_an_open_end_has_a_range() -> None:
+    """From 1/n to 0 is no range for any n > 0: under 1/n <= 0 every limit follows."""
+    empty = sympy.Integral(ONE, (x, 1 / n, 0))
+    never = (Claim(1 / n, "<=", ZERO), Claim(ZERO, "<", n))
+    said = Step(Claim(1 / n, "<=", ZERO, never), by.Given())
+    absurd = combine(Claim(ONE, "<=", ZERO, never), (n, said))
+    gap, seven = empty - 7, sympy.S(7)
+    bounds = [
+        combine(claim, (gap**2 + 1, absurd), remainder=(q + ONE / 2) ** 2 + sympy.Rational(3, 4))
+        for claim, q in (
+            (Claim(seven, "<=", empty, never), gap),
+            (Claim(empty, "<=", seven, never), -gap),
+        )
+    ]
+    steady = Step(Claim(seven, "->", seven, never, n), by.Limit(((seven, ZERO, ZERO, 0),)))
+    uses = (bounds[0], steady, bounds[1], steady)
+    limit = Step(Claim(empty, "->", seven, never, n), by.Squeeze(), uses)
+    nothing = Claim(sympy.Integral(ONE, (x, 0, 0)), "=", seven)
+    refused(nothing, by.Improper(), limit, because="no sum ends so")
+
+
+def test_a_fact_of_a_free_symbol_is_none_of_a_bound_one() -> None:
+    integral = sympy.Integral(1 / x, (x, 0, 1))
+    for facts in (Facts(frozenset({x})), Facts(nonzero=frozenset({x}))):
+        assert not defined(integral, facts)
+        assert not defined(sympy.Sum(1 / x, (x, 0, 1)), facts)
+
+
+_HIDDEN_0 = sympy.sin(ONE) ** 2 + sympy.cos(ONE) ** 2 - 1
+
+
+def test_a_hypothesis_that_loses_its_quotient_is_not_met() -> None:
+    """0 · (1/0) = 0 has no value, and SymPy writes 0 = 0."""
+    nought = combine(Claim(_HIDDEN_0**2, "<=", ZERO))
+    denial = Claim(ZERO, "<", y**2, (Claim(x / y, "=", ZERO),), false=True)
+    values = by.Counterexample(((x, ZERO), (y, _HIDDEN_0)))
+    refused(denial, values, nought, because="undefined")
+
+
+def test_a_case_is_looked_at_with_the_terms_of_its_sums() -> None:
+    total = sympy.Sum(x / (k + x**2), (k, 0, 1))
+    below, beyond = (
+        combine(Claim(total, "=", total, (side,)))
+        for side in (Claim(x, "<", ZERO), Claim(ZERO, "<", x))
+    )
+    at = combine(Claim(total.xreplace({x: ZERO}), "=", total.xreplace({x: ZERO})))
+    claim = Claim(total, "=", total)
+    refused(claim, by.Split(x, ZERO), below, at, beyond, because="undefined at")
+
+
+def test_an_order_has_a_value() -> None:
+    claim = Claim(ZERO, "O", sympy.exp(1 / y), (), N)
+    refused(claim, by.Order((ONE,)), because="no order")

@@ -22,12 +22,14 @@ class Facts:
         """With the bound symbol inside its range, at its ends too if closed."""
         _, x, a, b = opened(binder)
         gaps = frozenset(g for g in (x - a, b - x) if not g.has(sympy.oo))
+        sets = (self.positive, self.nonnegative, self.nonzero, self.whole, self.convergent)
+        free = Facts(*(frozenset(e for e in s if x not in e.free_symbols) for s in sets))
         if not isinstance(binder, sympy.Integral):
-            whole = self.whole | {x} if whole_number(a, self) else self.whole
-            return replace(self, nonnegative=self.nonnegative | gaps, whole=whole)
+            whole = free.whole | {x} if whole_number(a, free) else free.whole
+            return replace(free, nonnegative=free.nonnegative | gaps, whole=whole)
         if closed:
-            return replace(self, nonnegative=self.nonnegative | gaps)
-        return replace(self, positive=self.positive | gaps)
+            return replace(free, nonnegative=free.nonnegative | gaps)
+        return replace(free, positive=free.positive | gaps)
 
 
 @lru_cache(maxsize=100_000)

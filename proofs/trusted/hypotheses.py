@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import repeat
 from typing import Any
 
 from ...theory.symbolic import Expr, sympy
@@ -65,15 +64,6 @@ def holds(h: Claim, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
             return above(h.gap, facts, h.relation == "<")
 
 
-def keeps_sums(h: Claim, moved: Claim, values: tuple[tuple[Any, Expr], ...]) -> bool:
-    """Whether SymPy dropped no sum of a hypothesis at other values, as from 0 times it."""
-    pairs = tuple((k, v) for k, v in values if k not in h.over)
-    sides = ((h.left, moved.left), (h.right, moved.right))
-    kept = all({substituted(b, pairs) for b in e.atoms(*BINDERS)} <= there.atoms(*BINDERS)
-               for e, there in sides)  # fmt: skip
-    return kept and all(map(keeps_sums, h.given, moved.given, repeat(pairs)))
-
-
 def applies(
     values: tuple[tuple[Any, Expr], ...], claim: Claim, given: tuple[Claim, ...],
     used: Sequence[Claim] = (),
@@ -88,7 +78,7 @@ def applies(
                    for k, v in values)  # fmt: skip
     here = said((*given, *applicable(given, used)))
     stated = (*(replace(h, over=()) for h in given if h.over), *used)
-    kept = all(map(keeps_sums, claim.given, claim.at(*values).given, repeat(values)))
+    kept = all(_has_value(h, values, given, stated) for h in claim.given)
     return (
         kept
         and all(defined(v, here) for v in symbols)
@@ -96,10 +86,35 @@ def applies(
     )
 
 
-def defined_at(e: Expr, values: tuple[tuple[Any, Expr], ...], facts: Facts) -> bool:
+def _has_value(h: Claim, values: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
+    """Whether a hypothesis at other values is all there, or all that SymPy dropped is defined."""
+    pairs = tuple((k, v) for k, v in values if k not in h.over)
+    outside = tuple(g for g in given if not g.free & set(h.over))
+    inside = (*outside, *h.at(*pairs).given)
+    facts = said((*inside, *applicable(inside, used)))
+    sides = (_is_kept(e, pairs) or defined_at(e, pairs, facts) for e in (h.left, h.right))
+    return all(sides) and all(_has_value(g, pairs, outside, used) for g in h.given)
+
+
+def _is_kept(e: Expr, values: Any) -> bool:
+    """Whether SymPy changes nothing of the term's form at the values."""
+    there = substituted(e, values)
+    alike = there.func is e.func and len(there.args) == len(e.args)
+    return e.is_Atom or (alike and all(_is_kept(a, values) for a in e.args))
+
+
+def defined_at(e: Expr, values: Any, facts: Facts) -> bool:
     """Whether e has a value at the values, with all that SymPy may drop from it, as 0 times it."""
-    whole = e == sympy.oo or defined(substituted(e, values), facts)
-    return whole and (isinstance(e, BINDERS) or all(defined_at(u, values, facts) for u in e.args))
+    if e in (sympy.oo, -sympy.oo):
+        return True
+    there = substituted(e, values)
+    if not defined(there, facts):
+        return False
+    if not isinstance(e, BINDERS):
+        return all(defined_at(u, values, facts) for u in e.args)
+    f, *ends = opened(e)
+    within = facts.inside(there, closed=False) if there.func is e.func else facts
+    return all(defined_at(u, values, facts) for u in ends[1:]) and defined_at(f, values, within)
 
 
 def _applied(c: Claim, mark: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:

@@ -212,7 +212,7 @@ def _improper(c: Claim, _: by.Improper, used: tuple[Claim, ...]) -> Facts:
     require(n not in c.free | e.free_symbols, "not free to grow", n)
     is_sum, to_infinity = isinstance(e, sympy.Sum), b == sympy.oo
     ends = (a, n) if to_infinity else (a + 1 / n, b)
-    require(to_infinity or not is_sum, "no sum ends so")
+    require(to_infinity or (not is_sum and above(b - a, facts, True)), "no sum ends so")
     grown = (Claim(ends[0], "<=", ends[1]), Claim(sympy.S.Zero, "<", n))
     inside = (*c.given, *grown, *((Claim(n, "whole"),) if is_sum else ()))
     facts_under(inside, used)
@@ -299,7 +299,8 @@ def _eventually(c: Claim, _: by.Eventually, used: tuple[Claim, ...]) -> None:
 
 def _order(c: Claim, r: by.Order, used: tuple[Claim, ...]) -> None:
     facts = facts_under(c.given, used)
-    require(c.relation in ("O", "Theta") and above(c.right, facts, True), "no order")
+    require(c.relation in ("O", "Theta") and defined(c.right, facts), "no order")
+    require(above(c.right, facts, True), "not above 0", c.right)
     if not r.constants:
         (limit,) = used
         alike = limit.relation == "->" and limit.along == c.along and limit.right != sympy.oo
