@@ -62,6 +62,15 @@ class Entry:
     notes: str = ""
 
 
+def proved(
+    number: str, title: str, source: str, proof: Callable[[], Step],
+    notes: str = "", as_printed: str = "",
+) -> Entry:  # fmt: skip
+    """What holds as printed, or beyond the paper: the claim of its proof."""
+    holds = proof().claim
+    return Entry(number, title, source, "proved", holds, proof, as_printed=as_printed, notes=notes)
+
+
 @dataclass(frozen=True)
 class Verdict:
     """An entry with the theorems that bear it.

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable
 
 import pytest
-from specrate.proofs.attacking.mutations import mutants, steps_of
+from specrate.proofs.attacking.mutations import Mutant, mutants, steps_of
 from specrate.proofs.attacking.trials import refuted
 from specrate.proofs.trusted.grammar import Refused
 from specrate.proofs.trusted.kernel import Step, check
@@ -14,10 +14,20 @@ Cases = tuple[tuple[str, Callable[[], Step], int, int], ...]
 
 
 def assert_refuted_mutants_are_rejected(
-    name: str, proof: Callable[[], Step], every: int, least: int, trials: int
+    name: str,
+    proof: Callable[[], Step],
+    every: int,
+    least: int,
+    trials: int,
+    steps: int | None = None,
+    is_tried: Callable[[Mutant], bool] = lambda _: True,
 ) -> None:
-    """Fail if the kernel takes a mutant that a trial refutes, or too few are refuted."""
-    found = [m for step in steps_of(proof()) for m in mutants(step)][::every]
+    """Fail if the kernel takes a mutant that a trial refutes, or too few are refuted.
+
+    Of all steps, or the first so many that ``steps_of`` lists, and of mutants that are to be tried.
+    """
+    chosen = steps_of(proof())[:steps]
+    found = [m for step in chosen for m in mutants(step) if is_tried(m)][::every]
     tally: Counter[str] = Counter()
     for mutant in found:
         if not refuted(mutant.step.claim, trials=trials):

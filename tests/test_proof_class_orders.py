@@ -4,8 +4,7 @@ Power: the tally of refuted mutants is asserted, so that a harness that finds no
 """
 
 import pytest
-from specrate.proofs.attacking.mutations import mutants, steps_of
-from specrate.proofs.attacking.trials import refuted
+from mutant_trials import assert_refuted_mutants_are_rejected
 from specrate.proofs.theorems import point_rates, two_classes
 from specrate.proofs.theorems.tactics import ONE
 from specrate.proofs.trusted.claims import Claim
@@ -16,12 +15,8 @@ from specrate.proofs.trusted.kernel import Step, check
 @pytest.mark.parametrize(("is_worst", "every"), [(True, 151), (False, 171)])
 def test_no_refuted_mutant_is_accepted(is_worst: bool, every: int) -> None:
     proof = point_rates.eq_24 if is_worst else point_rates.eq_25
-    found = [m for step in steps_of(proof(is_worst))[:12] for m in mutants(step)][::every]
-    false = [m for m in found if refuted(m.step.claim, trials=3)]
-    for mutant in false:
-        with pytest.raises(Refused):
-            check(mutant.step)
-    assert len(false) >= 5
+    name = "Eq. 24" if is_worst else "Eq. 25"
+    assert_refuted_mutants_are_rejected(name, lambda: proof(is_worst), every, 5, 3, 12)
 
 
 @pytest.mark.parametrize("is_worst", [True, False])

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import pytest
 import sympy
-from specrate.proofs.attacking.mutations import Mutant, mutants, steps_of
-from specrate.proofs.attacking.trials import refuted
+from mutant_trials import Cases, assert_refuted_mutants_are_rejected
+from specrate.proofs.attacking.mutations import Mutant
 from specrate.proofs.theorems import (
     axis_terms,
     classes,
@@ -21,10 +21,9 @@ from specrate.proofs.theorems import (
     plateaus,
     profile_limits,
 )
-from specrate.proofs.trusted.grammar import Refused
-from specrate.proofs.trusted.kernel import Step, check
+from specrate.proofs.trusted.kernel import Step
 
-PROOFS: tuple[tuple[str, Callable[[], Step], int, int], ...] = (
+PROOFS: Cases = (
     ("cosine", jitter_bounds.cosine_pade, 13, 10),
     ("jitter from below", jitter_bounds.jitter_from_below, 14, 5),
     ("multi-jitter", multi_jitter_bounds.multi_jitter_from_below, 20, 6),
@@ -55,21 +54,8 @@ def _is_tried(mutant: Mutant) -> bool:
     return not any(s.has(sympy.oo) for s in sums)
 
 
-def _accepted(step: Step) -> bool:
-    try:
-        check(step)
-    except Refused:
-        return False
-    return True
-
-
 @pytest.mark.parametrize(("name", "proof", "every", "least"), PROOFS, ids=[c[0] for c in PROOFS])
 def test_no_refuted_mutant_is_accepted(
     name: str, proof: Callable[[], Step], every: int, least: int
 ) -> None:
-    last = steps_of(proof())[:_LAST]
-    found = [m for s in last for m in mutants(s) if _is_tried(m)][::every]
-    false = [m for m in found if refuted(m.step.claim, trials=3)]
-    for mutant in false:
-        assert not _accepted(mutant.step), (name, mutant.change, str(mutant.step.claim))
-    assert len(false) >= least
+    assert_refuted_mutants_are_rejected(name, proof, every, least, 3, _LAST, _is_tried)

@@ -1,6 +1,7 @@
 """What must never become a theorem: steps that once did, and those that come near them."""
 
 import pytest
+from refusals import refused
 from specrate.proofs.theorems.tactics import ONE, ZERO, combine, real, whole
 from specrate.proofs.trusted import reasons as by
 from specrate.proofs.trusted.claims import Claim
@@ -12,12 +13,6 @@ from specrate.theory.symbolic import Expr, Symbol, sympy
 x, y, n, j, k, t, N = real("x y n j k t N")
 f = sympy.Function("f")
 SQUARE = combine(Claim(ZERO, "<=", x**2), remainder=x**2)
-
-
-def refused(claim: Claim, reason: by.Reason, *uses: Step, because: str) -> None:
-    """Refused, and for this reason: another would make the test say nothing."""
-    with pytest.raises(Refused, match=because):
-        check(Step(claim, reason, uses))
 
 
 @pytest.mark.parametrize("value", [sympy.I, -sympy.oo, sympy.zoo, sympy.nan, sympy.Float(0.5)])

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import pytest
+from refusals import refused
 from specrate.proofs.theorems.tactics import ONE, ZERO, combine, real
 from specrate.proofs.trusted import reasons as by
 from specrate.proofs.trusted.claims import Axiom, Claim
@@ -15,14 +16,6 @@ x, y, z, w, j, k, n, t, N = real("x y z w j k n t N")
 f = sympy.Function("f")
 LARGE = (Claim(ONE, "<", N),)
 LIMIT_OF_N = Step(Claim(N, "->", sympy.oo, LARGE, N), by.Limit(((ONE, ZERO, ONE, 0),)))
-
-
-def refused(claim: Claim, reason: by.Reason, *uses: Step, because: str) -> None:
-    """Refused, and for this reason, while all that is used is accepted."""
-    for step in uses:
-        check(step)
-    with pytest.raises(Refused, match=because):
-        check(Step(claim, reason, uses))
 
 
 def given(hypothesis: Claim, *others: Claim) -> Step:
@@ -70,19 +63,11 @@ def test_what_has_no_value_has_no_order() -> None:
 
 def test_a_sum_in_the_place_of_a_function_catches_no_other_value() -> None:
     about_all = Claim(f(k), "=", ZERO, over=(k,))
-    here = Step(
-        Claim(f(y), "=", ZERO, (about_all,)), by.Instance(((k, y),)), (given_at(about_all),)
-    )
+    here = Step(Claim(f(y), "=", ZERO, (about_all,)), by.Instance(((k, y),)), (given(about_all),))
     body = sympy.Sum(x * (j - sympy.Rational(3, 2)), (j, 1, 2))
     values = ((f, sympy.Lambda(x, body)), (y, j))
     caught = Claim(sympy.Sum(j * (j - sympy.Rational(3, 2)), (j, 1, 2)), "=", ZERO)
     refused(caught, by.Instance(values), here, because="would be caught")
-
-
-def given_at(about_all: Claim) -> Step:
-    """A quantified hypothesis at its own symbol."""
-    stated = Claim(about_all.left, about_all.relation, about_all.right, (about_all,))
-    return Step(stated, by.Given())
 
 
 DIVERGENT = sympy.Integral(ONE, (x, 1, sympy.oo))

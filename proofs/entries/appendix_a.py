@@ -1,14 +1,12 @@
 """Appendix A, Eqs. 30-36: jittered points and lines, normalised, and the monomial below them."""
 
-from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import Expr
-from ..entry import Entry
+from ..entry import Entry, proved
 from ..theorems import appendix_spectra as spectra
 from ..theorems.appendix_spectra import N, d
 from ..theorems.tactics import ONE
-from ..trusted.kernel import Step
 
 _SCALE = (
     "The argument must be m_i/n_i, m_i/N^(1/d) for equal strata: at whole frequencies the printed "
@@ -57,18 +55,12 @@ def _profile(
     )
 
 
-def _proved(
-    number: str, title: str, source: str, proof: Callable[[], Step], notes: str = ""
-) -> Entry:
-    return Entry(number, title, source, "proved", proof().claim, proof, notes=notes)
-
-
 ENTRIES = (
     _spectrum(
         "30", "jitter, unnormalised: N (1 − ∏ sinc²(m_i/n_i))", N,
         "⟨P_S⟩ = N (1 − ∏ Sinc(πν_i)²)",
     ),
-    _proved(
+    proved(
         "30, DC component", "at frequency 0 it is N²", "Appendix A.1, Eq. 30",
         partial(spectra.all_points_at_0, ONE),
     ),
@@ -76,7 +68,7 @@ ENTRIES = (
         "31", "jitter, normalised: (1/N) (1 − ∏ sinc²(m_i/n_i))", 1 / N,
         "⟨P_S⟩ = (1/N) (1 − ∏ Sinc(πν_i)²)",
     ),
-    _proved(
+    proved(
         "31, DC component", "at frequency 0 it is 1", "Appendix A.1, Eq. 31",
         partial(spectra.all_points_at_0, N**-2),
     ),
@@ -92,7 +84,7 @@ ENTRIES = (
         "34", "the same over N, for points", "A.1", d, 1 / N,
         "P̆_S(ρ) = γ ρ^b/(α^b N^(b/d) N) for ν < α N^(1/d)",
     ),
-    _proved(
+    proved(
         "34, from below", "points: at least (1/N) Y/(1 + Y), Y = (π²/3) |m|²/N^(2/d)",
         "beyond Appendix A.1", partial(spectra.from_below, d, 1 / N), _LOW,
     ),
@@ -108,7 +100,7 @@ ENTRIES = (
         refutation=spectra.without_delta_denied,
         notes="δ(ν·l^∥) is missing, and ν_i l_i^⊥ multiplies by a position: it is ν_i/N^(1/(d−1)).",
     ),
-    _proved(
+    proved(
         "35, off the hyperplane", "jittered lines have no power where ν·l^∥ ≠ 0",
         "Appendix A.2, Eq. 35", spectra.no_power_along_lines,
     ),
@@ -116,7 +108,7 @@ ENTRIES = (
         "36", "the same over N, for lines: d − 1 for d", "A.2", d - 1, 1 / N,
         "P̆_L(ρ) = γ ρ^b/(α^b N^(b/(d−1)) N) for ρ < α N^(1/(d−1))",
     ),
-    _proved(
+    proved(
         "36, from below", "lines: at least (1/N) Y/(1 + Y), Y = (π²/3) |m|²/N^(2/(d−1))",
         "beyond Appendix A.2", partial(spectra.from_below, d - 1, 1 / N), _LOW,
     ),

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ..entry import Entry
+from ..entry import Entry, proved
 from ..theorems import multi_jitter_spectra as multi_jitter
 from ..theorems import stratified_spectra as stratified
 from ..trusted.kernel import Step
@@ -11,15 +11,7 @@ _BRACKET = "ν is any real frequency; sinc² ν = sin²(πν)/(πν)² is [ν = 
 
 
 def _kernel(sampler: str, title: str, proof: Callable[[], Step], source: str, notes: str) -> Entry:
-    return Entry(
-        number=f"kernel, {sampler}",
-        title=title,
-        source=source,
-        status="proved",
-        holds=proof().claim,
-        proof=proof,
-        notes=notes,
-    )
+    return proved(f"kernel, {sampler}", title, source, proof, notes)
 
 
 ENTRIES = (

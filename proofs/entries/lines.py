@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ...theory.symbolic import Expr, sympy
-from ..entry import Entry
+from ..entry import Entry, proved
 from ..model import IN_MODEL
 from ..theorems import best_case, directions, flats, point_rates, radial, segments, sphere_means
 from ..theorems.flats import FLATS, SCALES, d, k
@@ -19,10 +19,6 @@ _TWO, _HALF = sympy.Integer(2), ONE / 2
 _IN_SPACE = (Claim(_TWO, "<=", d),)
 _LINES, _TEXT = "Section 6.3, Eq. 27, first row", "Section 7.2"
 _ROW = "Var < O(N^(−d/(d−1)))"
-
-
-def _proved(number: str, title: str, source: str, proof: _Proof, notes: str = "") -> Entry:
-    return Entry(number, title, source, "proved", proof().claim, proof, notes=notes)
 
 
 def _corrected(
@@ -59,7 +55,7 @@ _SINC, _NORMALISED = sympy.sin(u) / u, sympy.sin(sympy.pi * u) / (sympy.pi * u)
 _POINTS = tuple(c for c in SCALES if c.right != b)
 
 _RATES = (
-    _proved(
+    proved(
         "27, worst case, b > 1", f"lines and a jump, {IN_MODEL}: V = Θ(N^(−d/(d−1)))", _LINES,
         _lines("b>q", d / (d - 1)),
         "As printed, and from below too, where b > 1. It is the rate of points in d − 1 "
@@ -83,7 +79,7 @@ _RATES = (
         partial(flats.denied, _TIE, "b=q", _THREE_HALVES, *_AT_1), _TIE, _ROW,
         "At b = q = 1 a logarithm appears.",
     ),
-    _proved(
+    proved(
         "27, best case",
         f"lines and a smooth integrand, {IN_MODEL}: V = Θ(N^(−(b+d−1)/(d−1)))",
         "Section 6.3, Eq. 27, second row", best_case.best_order_of_lines,
@@ -109,7 +105,7 @@ _RATES = (
 )  # fmt: skip
 
 _DIRECTIONS = (
-    _proved(
+    proved(
         "7.2, n-rooks lines", "in the plane n-rooks offsets are jittered offsets",
         "Fig. 6, caption", directions.rooks_are_jitter,
     ),
@@ -129,16 +125,16 @@ _DIRECTIONS = (
         "Read as a rate, of all weights. With weights by inverse variance, which depend on N, it "
         "is the better of the two.",
     ),
-    _proved(
+    proved(
         "weights", "no weights do better than V₁V₂/(V₁ + V₂)", "Section 6.3, footnote 4",
         directions.inverse_variance,
     ),
-    _proved(
+    proved(
         "equal shares", "two directions of one rate are not better than one",
         "Section 7.2, multi-directional line sampling", directions.equal_shares,
         "N/2 lines in each give 2^(a−1) times the variance of N in one direction.",
     ),
-    _proved(
+    proved(
         "random directions", "the spectrum of jittered lines of two random directions",
         "Section 7.2, footnote 5", directions.marks,
     ),
@@ -179,17 +175,17 @@ _SEGMENTS = (
         "there is no dimensionality reduction on integration along the line segments",
         "At l = 1 nothing is kept of waves along the segment; shorter ones keep sinc(lu).",
     ),
-    _proved(
+    proved(
         "line", "a closed line keeps nothing of the waves along itself", "Section 5, Eq. 12",
         segments.line_of_a_wave,
     ),
-    _proved(
+    proved(
         "segments, mean", "the mean of sinc²(lρt) over the sphere, d = 3: at most 2/(πlρ)",
         "Section 8", segments.sphere_mean,
         "t, the cosine to the segment, is uniform for d = 3 alone. One power of ρ more: a decay "
         "ρ^(−d−1) becomes ρ^(−d−2), q = 2.",
     ),
-    _proved(
+    proved(
         "segments, mean in d dimensions",
         "the mean over the sphere: ∫ cos^(d−2) θ sinc²(lρ sin θ) dθ <= 4/(πlρ), θ < π/2, d >= 2",
         "Section 8", sphere_means.in_every_dimension,
@@ -205,7 +201,7 @@ def _beyond(
     what: str, section: str, notes: str, *proofs: tuple[radial.Case, str, _Proof]
 ) -> tuple[Entry, ...]:
     return tuple(
-        _proved(
+        proved(
             f"{what}, {case}",
             f"{what} of a curved body, {IN_MODEL}: V = Θ({order})",
             section,

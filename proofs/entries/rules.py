@@ -2,21 +2,13 @@
 
 from collections.abc import Callable
 
-from ..entry import Entry
+from ..entry import Entry, proved
 from ..theorems import rules
 from ..trusted.kernel import Step
 
 
 def _rule(name: str, title: str, proof: Callable[[], Step], source: str, notes: str) -> Entry:
-    return Entry(
-        number=f"rule, {name}",
-        title=title,
-        source=source,
-        status="proved",
-        holds=proof().claim,
-        proof=proof,
-        notes=notes,
-    )
+    return proved(f"rule, {name}", title, source, proof, notes)
 
 
 ENTRIES = (

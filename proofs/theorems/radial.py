@@ -1,6 +1,7 @@
 """The rate of Eq. 17 on one region, proved: saturating monomial against a power law.
 
-    V = ∫_0^ρ0 ρ^(s−1) P_S c dρ + ∫_ρ0^ν ρ^(s−1) P_S c₂ ρ^(−s−q) dρ + ∫_ν^∞ ρ^(s−1) (γ/N) c₂ ρ^(−s−q) dρ,
+    V = ∫_0^ρ0 ρ^(s−1) P_S c dρ + ∫_ρ0^ν ρ^(s−1) P_S c₂ ρ^(−s−q) dρ
+        + ∫_ν^∞ ρ^(s−1) (γ/N) c₂ ρ^(−s−q) dρ,
     P_S = (γ/N) (ρ/ν)^b,   ν = α N^e >= ρ0,        b, q, s, e, α, γ, ρ0, c, c₂ > 0:
 
     b > q:   N^(1+eq) V       →  γ α^−q c₂ b/(q (b − q))
@@ -9,7 +10,7 @@
 
 The integrals are powers, and at b = q one is a logarithm. (The paper, Eqs. 16-18, 25, 27, 45-50,
 with s for d and a Jacobian ρ^(s−1).)
-"""  # noqa: E501
+"""
 
 from dataclasses import dataclass, replace
 from functools import cache

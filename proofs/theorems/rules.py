@@ -19,7 +19,7 @@ from ...theory.symbolic import Expr, Symbol, sympy
 from ..trusted import reasons as by
 from ..trusted.claims import Claim
 from ..trusted.kernel import Step
-from .shifts import K, W, X, exchanged, instance, k, l, renamed, w, weight
+from .shifts import K, W, X, ell, exchanged, instance, k, renamed, w, weight
 from .strata import cos, pi, sin, sizes
 from .tactics import ONE, ZERO, chain, combine, real, whole
 
@@ -75,8 +75,8 @@ def _point(index: Symbol) -> tuple[Claim, ...]:
 @cache
 def all_pairs_of_both() -> Step:
     """Σ_l Σ_k Σ_a Σ_b cos(α_l − α_k + β_a − β_b) = Q_β Σ_l Σ_k cos(α_l − α_k)."""
-    apart, power = alpha(l) - alpha(k), power_of(beta, b)
-    outer = (*SIZE, *_point(l))
+    apart, power = alpha(ell) - alpha(k), power_of(beta, b)
+    outer = (*SIZE, *_point(ell))
     inner = (*outer, *_point(k))
     moved = pairs(beta, a, b).claim.at((gamma, apart))
     both = Step(
@@ -88,9 +88,9 @@ def all_pairs_of_both() -> Step:
     out = Step(Claim(row.claim.right, "=", power * waves, outer), by.Linear(((power, cos(apart)),)))
     line = chain(Claim(row.claim.left, "=", power * waves, outer), row, out)
     rows = Step(
-        Claim(total(row.claim.left, l), "=", total(power * waves, l), SIZE), by.Bind(), (line,)
+        Claim(total(row.claim.left, ell), "=", total(power * waves, ell), SIZE), by.Bind(), (line,)
     )
-    value = power * total(waves, l)
+    value = power * total(waves, ell)
     scale = Step(Claim(rows.claim.right, "=", value, SIZE), by.Linear(((power, waves),)))
     return chain(Claim(rows.claim.left, "=", value, SIZE), rows, scale)
 
@@ -101,7 +101,7 @@ def padding() -> Step:
     given = (*whole(N), Claim(TWO, "<=", N))
     both = instance(all_pairs_of_both(), given)
     own, other = (
-        instance(pairs(*which), given, (gamma, ZERO)) for which in ((alpha, l, k), (beta, a, b))
+        instance(pairs(*which), given, (gamma, ZERO)) for which in ((alpha, ell, k), (beta, a, b))
     )
     powers = power_of(alpha, k), power_of(beta, b)
     different = both.claim.left - N * own.claim.left - N * other.claim.left + N**2

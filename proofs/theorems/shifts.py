@@ -30,7 +30,7 @@ from .sines import remainder, z
 from .strata import sizes, telescoped
 from .tactics import ONE, ZERO, chain, combine, positive, real, whole
 
-t, k, l, j, w, M, K, J, q, x, theta, N, W = real("t k l j omega M K J q x theta N W")  # noqa: E741
+t, k, ell, j, w, M, K, J, q, x, theta, N, W = real("t k l j omega M K J q x theta N W")
 pi, sin, cos = sympy.pi, sympy.sin, sympy.cos
 half, TWO = sympy.Rational(1, 2), sympy.Integer(2)
 A, B, X, G, a, phase, weight = (sympy.Function(s) for s in ("A", "B", "X", "G", "a", "p", "w"))
@@ -137,16 +137,16 @@ def exchange(j: Symbol, k: Symbol) -> Step:
 
 
 @cache
-def renamed(k: Symbol, l: Symbol) -> Step:  # noqa: E741
+def renamed(k: Symbol, ell: Symbol) -> Step:
     """Σ_k X(k) = Σ_l X(l)."""
-    ends = [sympy.Sum(X(s), (s, 1, K)) for s in (k, l)]
+    ends = [sympy.Sum(X(s), (s, 1, K)) for s in (k, ell)]
     none = [Step(Claim(e.xreplace({K: ZERO}), "=", ZERO), by.Range()) for e in ends]
     base = combine(
         Claim(ends[0].xreplace({K: ZERO}), "=", ends[1].xreplace({K: ZERO})),
         (1, none[0]), (-1, none[1]),
     )  # fmt: skip
     given = (*whole(K), Claim(ZERO, "<=", K), Claim(ends[0], "=", ends[1]))
-    cuts = [_cut(X(s), s, K, given) for s in (k, l)]
+    cuts = [_cut(X(s), s, K, given) for s in (k, ell)]
     uses = [*((1, u) for u in cuts[0]), *((-1, u) for u in cuts[1])]
     return _induction(Claim(ends[0], "=", ends[1]), K, base, *uses)
 
@@ -155,16 +155,16 @@ def renamed(k: Symbol, l: Symbol) -> Step:  # noqa: E741
 def squared() -> Step:
     """(Σ_k X(k))² = Σ_k Σ_l X(k) X(l)."""
     given = (*whole(K), Claim(ONE, "<=", K))
-    one, other = (sympy.Sum(X(s), (s, 1, K)) for s in (k, l))
+    one, other = (sympy.Sum(X(s), (s, 1, K)) for s in (k, ell))
     inside = (*given, *whole(k), Claim(ONE, "<=", k), Claim(k, "<=", K))
-    line = sympy.Sum(X(k) * X(l), (l, 1, K))
-    row = Step(Claim(line, "=", X(k) * other, inside), by.Linear(((X(k), X(l)),)))
+    line = sympy.Sum(X(k) * X(ell), (ell, 1, K))
+    row = Step(Claim(line, "=", X(k) * other, inside), by.Linear(((X(k), X(ell)),)))
     rows = Step(
         Claim(sympy.Sum(line, (k, 1, K)), "=", sympy.Sum(X(k) * other, (k, 1, K)), given),
         by.Bind(), (row,),
     )  # fmt: skip
     outer = Step(Claim(rows.claim.right, "=", other * one, given), by.Linear(((other, X(k)),)))
-    alike = Step(Claim(one, "=", other, given), by.Instance(()), (renamed(k, l),))
+    alike = Step(Claim(one, "=", other, given), by.Instance(()), (renamed(k, ell),))
     return combine(
         Claim(one**2, "=", rows.claim.left, given), (-1, rows), (-1, outer), (one, alike)
     )
@@ -178,8 +178,8 @@ def wave(order: Expr) -> Expr:
 
 def _products(given: tuple[Claim, ...], difference: Expr | None, uses: tuple[Step, ...]) -> Step:
     """Σ_t x_k x_l, of orders that differ by ±difference, or l = k if there is none."""
-    q_minus, q_plus = difference or ZERO, k + (l if difference is not None else k)
-    other, sign = (l, (k - l) / q_minus) if difference is not None else (k, ONE)
+    q_minus, q_plus = difference or ZERO, k + (ell if difference is not None else k)
+    other, sign = (ell, (k - ell) / q_minus) if difference is not None else (k, ONE)
     minus, plus = (2 * pi * order * t / M for order in (q_minus, q_plus))
     even, odd = A(k) * A(other), B(k) * B(other)
     parts = [
@@ -222,11 +222,11 @@ def _large(given: tuple[Claim, ...]) -> Step:
 def different_orders(is_below: bool) -> Step:
     """Σ_t x_k x_l = 0 for l < k, or for k < l."""
     ends = (
-        (Claim(ONE, "<=", l), Claim(l, "<=", k - 1)) if is_below
-        else (Claim(k + 1, "<=", l), Claim(l, "<=", K))
+        (Claim(ONE, "<=", ell), Claim(ell, "<=", k - 1)) if is_below
+        else (Claim(k + 1, "<=", ell), Claim(ell, "<=", K))
     )  # fmt: skip
-    given = (*ENOUGH, *whole(k, l), Claim(ONE, "<=", k), Claim(k, "<=", K), *ends)
-    order = k - l if is_below else l - k
+    given = (*ENOUGH, *whole(k, ell), Claim(ONE, "<=", k), Claim(k, "<=", K), *ends)
+    order = k - ell if is_below else ell - k
     least, most, enough = _bounds(given)
     near = [Step(Claim(h.left, "<=", h.right, given), by.Given()) for h in ends]
     gap = near[1] if is_below else near[0]
@@ -234,16 +234,16 @@ def different_orders(is_below: bool) -> Step:
     if is_below:
         below = combine(Claim(order, "<", M, given), (1, enough), (2, most), (1, near[0]),
                         (0, least), remainder=k + 1)  # fmt: skip
-        both = combine(Claim(k + l, "<", M, given), (1, enough), (2, most), (1, gap), remainder=1)
-        above = combine(Claim(ZERO, "<", k + l, given), (1, least), (1, near[0]), remainder=2)
+        both = combine(Claim(k + ell, "<", M, given), (1, enough), (2, most), (1, gap), remainder=1)
+        above = combine(Claim(ZERO, "<", k + ell, given), (1, least), (1, near[0]), remainder=2)
     else:
         below = combine(Claim(order, "<", M, given), (1, enough), (1, near[1]), (1, most),
                         (2, least), remainder=2)  # fmt: skip
-        both = combine(Claim(k + l, "<", M, given), (1, enough), (1, near[1]), (1, most))
-        above = combine(Claim(ZERO, "<", k + l, given), (2, least), (1, gap), remainder=3)
+        both = combine(Claim(k + ell, "<", M, given), (1, enough), (1, near[1]), (1, most))
+        above = combine(Claim(ZERO, "<", k + ell, given), (2, least), (1, gap), remainder=3)
     large = _large(given)
     split = _products(given, order, (large, small))
-    nothing = (*_turns(order, given, (small, below)), *_turns(k + l, given, (above, both)))
+    nothing = (*_turns(order, given, (small, below)), *_turns(k + ell, given, (above, both)))
     uses = tuple((c, s) for s in nothing for c in [split.claim.right.coeff(s.claim.left)] if c != 0)
     return combine(Claim(split.claim.left, "=", ZERO, given), (1, split), *uses, (0, large))
 
@@ -270,10 +270,10 @@ def same_order() -> Step:
 def _row() -> Step:
     """Σ_l Σ_t x_k x_l = M (A_k² + B_k²)/2."""
     given = same_order().claim.given
-    cell = sympy.Sum(wave(k) * wave(l), (t, 1, M))
+    cell = sympy.Sum(wave(k) * wave(ell), (t, 1, M))
     ends = ((1, K), (1, k - 1), (k, K), (k, k), (k + 1, K))
-    line, low, rest, one, high = (sympy.Sum(cell, (l, *e)) for e in ends)
-    zeros = [sympy.Sum(ZERO, (l, *e)) for e in (ends[1], ends[4])]
+    line, low, rest, one, high = (sympy.Sum(cell, (ell, *e)) for e in ends)
+    zeros = [sympy.Sum(ZERO, (ell, *e)) for e in (ends[1], ends[4])]
     cut = Step(Claim(line, "=", low + rest, given), by.Range(k - 1))
     again = Step(Claim(rest, "=", one + high, given), by.Range(k))
     single = Step(Claim(one, "=", same_order().claim.left, given), by.Range())
@@ -305,9 +305,9 @@ def parseval() -> Step:
         sympy.Sum(side, shifts) for side in (square.claim.left, square.claim.right)
     )  # fmt: skip
     expanded = Step(Claim(squares, "=", doubles, ENOUGH), by.Bind(), (square,))
-    line = sympy.Sum(wave(k) * wave(l), (l, 1, K))
+    line = sympy.Sum(wave(k) * wave(ell), (ell, 1, K))
     outer = exchanged(line, t, M, k, ENOUGH)
-    inner = exchanged(wave(k) * wave(l), t, M, l, at_k)
+    inner = exchanged(wave(k) * wave(ell), t, M, ell, at_k)
     row = _row()
     row_ = chain(Claim(inner.claim.left, "=", row.claim.right, at_k), inner, row)
     power = A(k) ** 2 + B(k) ** 2

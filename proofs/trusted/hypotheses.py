@@ -79,11 +79,8 @@ def applies(
     here = said((*given, *applicable(given, used)))
     stated = (*(replace(h, over=()) for h in given if h.over), *used)
     kept = all(_has_value(h, values, given, stated) for h in claim.given)
-    return (
-        kept
-        and all(defined(v, here) for v in symbols)
-        and (not (len(symbols) < len(values)) or _applied(claim.at(*marked), mark, given, stated))
-    )
+    known = kept and all(defined(v, here) for v in symbols)
+    return known and _applied(claim.at(*marked), mark, given, stated)
 
 
 def _has_value(h: Claim, values: Any, given: tuple[Claim, ...], used: Sequence[Claim]) -> bool:
